@@ -253,9 +253,7 @@ bool moves_by_forces(const Model<double>& model, std::size_t body) {
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;
-  instant.x = State<double>(model);
-  StateArchive memory = simulation_memory(frame.memory);
-  visit_state(memory, model, instant.x);
+  instant.x = recorded_state(simulation_memory(frame.memory), model);
   instant.coupling_forces = frame.coupling_forces;
   instant.contacts = frame.contacts;
   instant.memory = frame.memory;

@@ -162,6 +162,17 @@ void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
               "option.conflict"});
 }
 
+State<double> recorded_state(StateArchive memory, const Model<double>& model) {
+  State<double> x(model);
+  try {
+    visit_state(memory, model, x);
+  } catch (const std::runtime_error& error) {
+    throw InputError({{"", 0, "a frame of the recording", error.what(),
+                       "the recording is damaged: record it again", "recording.numbers"}});
+  }
+  return x;
+}
+
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
   const Recording recording(file);
   for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
@@ -185,10 +196,8 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
     instant.energy_balance.push_back(
         {EnergyRowKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
-  StateArchive memory = instant.memory;
-  State<double> x(instant.prepared.input.robot.model);
-  visit_state(memory, instant.prepared.input.robot.model, x);
-  set_pose(instant.prepared.input.robot, x);
+  set_pose(instant.prepared.input.robot,
+           recorded_state(instant.memory, instant.prepared.input.robot.model));
   return instant;
 }
 

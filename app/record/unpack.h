@@ -50,6 +50,9 @@ bool is_recording(const std::filesystem::path& file);
 // Rejects options that change model or state: a recording has both.
 void check_recorded(const RobotOptions& given, DiagnosticList& faults);
 
+// Of a frame. Throws InputError if it is of another model.
+State<double> recorded_state(StateArchive memory, const Model<double>& model);
+
 // State of a recorded run, for inspection.
 struct RecordedInstant {
   SimulatePlan prepared;                     // with the state and wrenches of the instant
