@@ -18,7 +18,7 @@ ENDS = {"compare": {1}, "inspect": {1}, "replay": {1}, "simulate": {3}, "hand": 
 LIMITED = f'ulimit -c 0; ulimit -d {MEGABYTES << 10}; ulimit -t {SECONDS + 1}; exec /usr/bin/nice "$@"'
 
 
-HELP = re.compile(r"(^| )(-h|--help|--version|--man|--completion|--scene-keys)")  # which take no --json
+HELP = re.compile(r"(^| )(-h|--help|--version|--man|--completion|--scene-keys|--json=)")  # not JSON, or not wanted
 
 
 @dataclasses.dataclass
