@@ -1,4 +1,4 @@
-"""Codes of diagnostics: those in the sources, those that were seen, and those that no file or option can bring about.
+"""Codes of diagnostics: those in the sources, those that were seen, and those that no file or option can cause.
 scripts/check/hostile."""
 import pathlib
 import re
@@ -20,28 +20,28 @@ def of_all(codes, reason):
 
 
 UNREACHABLE = {
-    **of_all("arm.damping arm.mass arm.stiffness", "the name of a number, not a code"),
+    **of_all("arm.damping arm.mass arm.stiffness", "name of a number, not a code"),
     **of_all("batch.bound batch.duration batch.friction batch.joint batch.link batch.measured batch.mimic batch.spring "
              "batch.still-joint batch.target batch.targets batch.unknown-joint",
-             "`map` runs such cells one by one, without a word"),
+             "map falls back to single runs and does not report it"),
     **of_all("contact.geometry contact.group contact.pair coupling.gain coupling.joints coupling.link coupling.weld "
              "device.figure hand.header loop.open loop.turned-over loop.twice mapping.body mapping.degrees-of-freedom "
              "mapping.joints mapping.number mapping.ranges model.axis-zero model.mimic-loop model.name-taken "
              "model.negative model.parent render.camera render.size robot.unknown-link shape.mass shape.numbers "
              "target.degrees-of-freedom target.unknown-joint",
-             "only for callers of the library; the reader of files, or of options, refuses it first"),
+             "only for callers of the library; readers of files and options refuse it first"),
     **of_all("file.stdout file.write picture.write render.lettering render.library render.memory",
-             "a fault of the machine"),
-    "change.joints": "the lab reads the scene again first",
-    "device.silent": "needs a device",
-    "hand.too-long": "a log of an hour",
-    "lab.not-allowed": "only where the lab is open to other machines",
-    "lab.nothing-saved": "only in the first moment of a lab",
-    "lab.unreadable": "a file that takes 10 s to read",
-    "page.missing": "a program that is built without pages",
-    "run.other-memory": "the lab answers it by a new run",
-    "study.file": "found at the end of a study",
-    "trace.too-long": "a trace of 11 hours"}
+             "fault of the machine"),
+    "change.joints": "the lab rebuilds the scene before it restarts a run",
+    "device.silent": "needs a device that sends nothing",
+    "hand.too-long": "needs a log of 4 million steps",
+    "lab.not-allowed": "only if the lab listens on a public address",
+    "lab.nothing-saved": "only before the first frame of a lab",
+    "lab.unreadable": "needs a file that takes 10 s to read",
+    "page.missing": "only in a program that is built without pages",
+    "run.other-memory": "the lab starts a new run instead of reporting it",
+    "study.file": "reported only at the end of a study, which takes minutes",
+    "trace.too-long": "needs a trace of 8 million samples"}
 
 
 def sources():

@@ -118,7 +118,7 @@ class HostileLab:
             self.live = None  # the lab hangs up on who breaks the protocol
 
     def faults(self):
-        """Of a client that behaves well, after all that; and of the end."""
+        """Of a well-behaved client after the attacks, and of the end."""
         faults = []
         try:
             with self.lab.live() as live:
@@ -145,7 +145,7 @@ class HostileLab:
 
 
 def attack_lab(program, folder, options, tally):
-    """A lab after the other: twenty attacks each at least, and what it makes of them."""
+    """Attacks in groups of a hundred, each on a new lab."""
     count = options.cases if options.only == "lab" and options.cases else 40 if options.short else 600
     for first in range(0, count, 100):
         dice = random.Random(f"lab/{options.seed}/{first}")
