@@ -9,6 +9,7 @@ CODE = re.compile(r'"([a-z]+\.[a-z]+(?:-[a-z]+)*)"')
 NO_CODE = "vert frag html toml csv json svg twinrec png".split()  # names of files
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 MORE_TEXTS = {  # of codes whose text is elsewhere, and which are seen only as text
+    "picture.read": "is neither a PNG nor a JPEG",
     "mesh.mass": "the surface is not closed", "recipe.value": "'density' must be positive",
     "recipe.robot": "material 'x' does not exist", "change.number": "--set [^ ]*: not a number",
     "lab.missing": "^command: do: is missing", "lab.type": "^command: .* is .*; give ",
@@ -20,7 +21,7 @@ def of_all(codes, reason):
 
 
 UNREACHABLE = {
-    **of_all("arm.damping arm.mass arm.stiffness", "name of a number, not a code"),
+    **of_all("arm.damping arm.mass arm.stiffness robot.mount", "name of a number or table, not a code"),
     **of_all("batch.bound batch.duration batch.friction batch.joint batch.link batch.measured batch.mimic batch.spring "
              "batch.still-joint batch.target batch.targets batch.unknown-joint",
              "map falls back to single runs and does not report it"),
@@ -38,7 +39,11 @@ UNREACHABLE = {
     "lab.not-allowed": "only if the lab listens on a public address",
     "lab.nothing-saved": "only before the first frame of a lab",
     "lab.unreadable": "needs a file that takes 10 s to read",
+    "lab.edit": "lab: depends on the scene and the state in which the edit arrives",
+    "lab.variants-differ": "only in a lab with variants",
+    "loop.too-many": "needs thousands of constraints",
     "page.missing": "only in a program that is built without pages",
+    "parser.failed": "needs a file whose reader runs out of time or memory",
     "run.other-memory": "the lab starts a new run instead of reporting it",
     "study.file": "reported only at the end of a study, which takes minutes",
     "trace.too-long": "needs a trace of 8 million samples"}
