@@ -183,7 +183,7 @@ class Runner:
     @staticmethod
     def judged(case, code, out, err, faults):
         codes, text = [], err.decode("utf-8", "replace")
-        if "--json" in case.words and not HELP.search(" ".join(map(str, case.words))):
+        if code != 130 and "--json" in case.words and not HELP.search(" ".join(map(str, case.words))):
             try:
                 reported = strict_json(out.decode("utf-8"))
                 text += json.dumps(reported.get("warnings", []), ensure_ascii=False)
