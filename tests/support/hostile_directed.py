@@ -12,7 +12,8 @@ PIECES = {"{ARM}": '[[robot]]\nname = "r"\nmodel = "arm.urdf"\n',
           "{SPRING}": '[[coupling]]\ntype = "torsional"\nmeasure = "joint"\nlink = "upper"\nstiffness = 1\n',
           "{DEVICE}": '[[coupling]]\ntype = "god-object"\ntarget = "device"\n',
           "{BODY}": '[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n'}
-LARGE = {"scene.too-many": "[[body]]\n" * 10001, "faults.too-many": "[[body]]\n" * 300}
+LARGE = {"scene.too-many": "[[body]]\n" * 10001, "faults.too-many": "[[body]]\n" * 300,
+         "toml.too-deep": "a = " + "[" * 300}
 LARGE_URDF = {"urdf.too-many": ("</robot>", '<link name="x"/>' * 40001 + "</robot>"),
               "file.too-large": ("<robot", " " * (17 << 20) + "<robot")}
 GALLERIES = {"gallery.empty": "", "gallery.look": "look = 1\n", "gallery.name-taken": "\n[[scene]]\nname = 'a'\n",
