@@ -173,7 +173,8 @@ class LabCommand(LabTest):
     def test_only_the_client_in_control_uploads_files(self):
         with self.lab.live() as other:
             refused = self.lab.upload("fresh.urdf", ROD, other)
-            self.assertEqual((refused.status, refused.body), (403, b"twinarm lab: another client has control; request it\n"))
+            self.assertEqual((refused.status, refused.body),
+                             (403, b"twinarm lab: another client has control; request it\n"))
             self.assertEqual(self.lab.post("/open?name=fresh.urdf", ROD).status, 403)
             self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", ROD).status, 403)
             self.live.do("grant_control", to=self.state(live=other)["you"])
