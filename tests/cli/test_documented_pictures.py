@@ -29,7 +29,9 @@ SCRIPT = ROOT / "scripts/generate/pictures"
 PICTURES = ROOT / "docs/pictures"
 LARGE = {"arm_and_twin", "side_by_side", "e3_e4", "map_stable"}  # studio quality; recordings; the study; 4096 runs
 BY_HAND = {"lab", "map_throughput", "layers", "work_precision"}
-MAX_VISIBLE = 0.002  # of the squares, as in test_pictures.py
+# Of the squares. pngquant, which computes in floats, reduces the same picture to 256 colours that differ in up to
+# 0.0035 of the squares between processors; without one overlay it is 0.02 or more.
+MAX_VISIBLE = 0.005
 MAX_BYTES = 3.5e6    # of all pictures and films of docs/
 
 
