@@ -27,8 +27,8 @@ namespace {
   finished.finish();
   removed.write("half of it");
   std::raise(SIGTERM);
-  for (volatile bool goes_on = true; goes_on;) {
-  }
+  for (volatile bool goes_on = true; goes_on;)
+    if (::read(-1, nullptr, 0) == 0) break;  // ThreadSanitizer delivers signals in calls alone
   _exit(0);
 }
 
