@@ -75,8 +75,7 @@ void add_lever_warnings(const SceneModel& scene, std::vector<std::string>& warni
         point_jacobian(scene.model, k, body, k.position(body, c.spring.p_L)).norm() < 1e-9)
       warnings.push_back(
           fmt::format("coupling '{}' moves nothing: its point is on the axis of each joint that "
-                      "moves '{}'; give "
-                      "a 'point' away from the axis",
+                      "moves '{}'; give a 'point' away from the axis",
                       c.coupling, scene.model.body_name[static_cast<std::size_t>(body)]));
 }
 

@@ -136,8 +136,7 @@ SimulateResult SteppedRun::finish() {
       }))
     warn(
         "energies are too large for floating-point numbers (inf or nan, null in JSON): check "
-        "gravity, "
-        "masses and stiffnesses");
+        "gravity, masses and stiffnesses");
   result_.momentum = momentum();
   if (contacts_) result_.contacts = contacts_->contact_count();
   if (result_.post_mortem) result_.checkpoint = std::move(earlier_);

@@ -29,7 +29,7 @@ void serialize(StateArchive& archive, std::vector<Diagnostic>& faults) {
   for (Diagnostic& fault : faults) {
     std::string code(fault.code);
     archive.visit(fault.file, fault.line, fault.where, fault.problem, fault.fix, code);
-    fault.code = kept_code(code);
+    if (archive.reads()) fault.code = kept_code(code);
   }
 }
 

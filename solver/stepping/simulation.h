@@ -3,7 +3,8 @@
 //   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
 //   mimic joints, loops) -> integrator -> report
 //
-// step() throws only for an invalid step size. It allocates until warm, that is while contacts and
+// step() throws for an invalid step size, and for constraints on a robot of too many joints
+// (KinematicTrees::kMaxEntries). It allocates until warm, that is while contacts and
 // constraints outnumber those before; sources are noexcept: out of memory there ends the program.
 // Results are bit-reproducible.
 #pragma once
@@ -58,7 +59,7 @@ class Simulation {
 
   // Advances by h. Only dopri5 may end early (StepReport::reached, StepReport::h); with
   // `one_substep` it takes one accepted substep of at most h. Throws InputError, without any
-  // change, unless h is positive and finite.
+  // change, unless h is positive and finite; in the middle of the step as said above.
   StepReport step(double h, bool one_substep = false);
   // All inputs of the next step: state, and internal state of integrator, impulse solver and
   // sources. A simulation that is built equally continues bit-identically. Throws

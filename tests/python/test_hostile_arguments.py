@@ -59,7 +59,7 @@ def frozen(array):
 
 
 def hostile():
-    """(description, value); made anew for each function, as a call may change them."""
+    """(description, value); made for each function, as a call may change them."""
     endless = []
     endless.append(endless)
     nested = {}

@@ -1,17 +1,14 @@
 #include "collision/import/toml/toml_file.h"
 
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "collision/sandbox/bounded_file.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
-
-constexpr std::uintmax_t kMaxTomlBytes = 4u << 20;
 
 // Measures the nesting depth of brackets and dotted keys. Does not validate TOML.
 class DepthScan {
@@ -76,25 +73,10 @@ class DepthScan {
 }  // namespace
 
 std::string read_toml_text(const std::filesystem::path& file) {
-  const auto refuse = [&](int line, const std::string& problem, const std::string& fix,
-                          std::string_view code) {
-    throw InputError({{file.string(), line, "", problem, fix, code}});
-  };
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    refuse(0, "the file does not exist", "check the path", "file.missing");
-  if (std::filesystem::file_size(file, ignored) > kMaxTomlBytes)
-    refuse(0, "the file is larger than 4 MiB", "store meshes and traces in separate files",
-           "file.too-large");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    refuse(0, "the file cannot be read", "check its permissions (ls -l)", "file.unreadable");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  std::string read = std::move(text).str();
+  std::string read = read_bounded_file(file, 4, "store meshes and traces in separate files");
   if (const int line = DepthScan(read).line_too_deep(); line > 0)
-    refuse(line, "TOML nesting depth exceeds 200", "remove the nested keys or brackets",
-           "toml.too-deep");
+    throw InputError({{file.string(), line, "", "TOML nesting depth exceeds 200",
+                       "remove the nested keys or brackets", "toml.too-deep"}});
   return read;
 }
 

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "collision/sandbox/bounded_file.h"
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
 
@@ -79,20 +77,11 @@ class XmlScan {
 };
 
 XmlElement parse_xml(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMaxBytes = 16u << 20;
   const auto refuse = [&](int line, const std::string& problem, const std::string& fix,
                           std::string_view code) {
     throw InputError({{file.string(), line, "", problem, fix, code}});
   };
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    refuse(0, "the file does not exist", "check the path", "file.missing");
-  if (std::filesystem::file_size(file, ignored) > kMaxBytes)
-    refuse(0, "the file is larger than 16 MiB", "give a URDF file; store meshes separately",
-           "file.too-large");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(0, "the file cannot be read", "check its permissions (ls -l)", "urdf.xml");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  const std::string text = read_bounded_file(file, 16, "give a URDF file; store meshes separately");
   XmlScan scan(text);
   if (const std::string problem = scan.excess(); !problem.empty())
     refuse(scan.line(), problem, "give a URDF file; remove what is not of a robot",

@@ -11,6 +11,7 @@
 #include "collision/mesh_files/mesh_file.h"
 #include "solver/support/diagnostics.h"
 #include "tests/collision/narrow_phase/oracle.h"
+#include "tests/support/problem_of.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
@@ -49,22 +50,16 @@ TEST_CASE("errors show small numbers by their digits") {
     CAPTURE(text);
     return text.find("0.000000") == std::string::npos && text.find("1e-09") != std::string::npos;
   };
-  const auto refusal = [](auto&& make) -> std::string {
-    try {
-      make();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   CHECK(is_shown(shape_fault(Sphere{-1e-9})));
   CHECK(is_shown(shape_fault(HalfSpace{{0, 0, 1e-9}, 0})));
-  CHECK(is_shown(refusal([] { check_density(-1e-9); })));
-  CHECK(is_shown(refusal([] { with_mass({1, Vector3::Zero(), Matrix3::Zero()}, -1e-9); })));
-  CHECK(is_shown(refusal([] {
+  CHECK(is_shown(testing::problem_of([] { check_density(-1e-9); })));
+  CHECK(is_shown(testing::problem_of([] {
+    with_mass({1, Vector3::Zero(), Matrix3::Zero()}, -1e-9);
+  })));
+  CHECK(is_shown(testing::problem_of([] {
     combine(std::vector<MassProperties>{{-1e-9, {}, Matrix3::Zero()}});
   })));
-  CHECK(is_shown(refusal([] { load_mesh("none.stl", -1e-9); })));
+  CHECK(is_shown(testing::problem_of([] { load_mesh("none.stl", -1e-9); })));
   CHECK(shape_fault(MeshShape{box_mesh({1e9, 1, 1})}).find("1e+09") != std::string::npos);
 }
 

@@ -8,6 +8,7 @@
 #include "solver/forces/joint_stops.h"
 #include "solver/support/diagnostics.h"
 #include "tests/coupling/analysis/laws.h"
+#include "tests/support/problem_of.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -28,16 +29,6 @@ Model<double> mixed_chain() {
   return builder.build();
 }
 
-template <class Make>
-std::string refusal(Make&& make) {
-  try {
-    make();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("couplings of joint coordinates reject joints of several degrees of freedom") {
@@ -50,28 +41,28 @@ TEST_CASE("couplings of joint coordinates reject joints of several degrees of fr
   for (CouplingSpec spec : {torsional, pd}) {
     spec.name = "held";
     spec.springs = {{"s", 1, Vector3::Zero(), 10, 1}};
-    CHECK(refusal([&] { make_coupling(spec, model, kvr); }) == "");
+    CHECK(problem_of([&] { make_coupling(spec, model, kvr); }) == "");
     for (const auto& [body, words] :
          {std::pair{2, "joint 'plate': the joint has 0 degrees of freedom, must have one"},
           std::pair{3, "joint 'ball': the joint has 3 degrees of freedom, must have one"}}) {
       spec.springs[0].body = body;
-      const std::string text = refusal([&] { make_coupling(spec, model, kvr); });
+      const std::string text = problem_of([&] { make_coupling(spec, model, kvr); });
       CAPTURE(text);
       CHECK(text.find(words) != std::string::npos);
     }
   }
   torsional.measure = SpringSpace::world;  // a torque on the link: any joint
   torsional.springs = {{"s", 2, Vector3::Zero(), 10, 1}, {"t", 3, Vector3::Zero(), 10, 1}};
-  CHECK(refusal([&] { make_coupling(torsional, model, kvr); }) == "");
+  CHECK(problem_of([&] { make_coupling(torsional, model, kvr); }) == "");
   const std::vector<JointStops::Stop> stops{{2, -1, 1, 10, 1}};
-  CHECK(refusal([&] { JointStops("stops", model, stops); }) != "");
+  CHECK(problem_of([&] { JointStops("stops", model, stops); }) != "");
 }
 
 TEST_CASE("a target robot rejects driving a fixed or a spherical joint, and names each") {
   const Model<double> model = mixed_chain();
   const SteadyHand hand;
   const auto refused = [&](const DrivenJoints& joints) {
-    return refusal([&] { TargetRobot(model, hand, SteadyHand::mapping(), joints); });
+    return problem_of([&] { TargetRobot(model, hand, SteadyHand::mapping(), joints); });
   };
   CHECK(refused({{"hinge"}, "", 0, 0}) == "");
   CHECK(refused({{"hinge"}, "hinge", 0, 0}) == "");

@@ -9,23 +9,10 @@
 #include "coupling/target/scripted_motion.h"
 #include "solver/support/diagnostics.h"
 #include "tests/coupling/analysis/laws.h"
+#include "tests/support/problem_of.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
-
-namespace {
-
-template <class Make>
-std::string problem_of(Make&& make) {
-  try {
-    make();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
 
 TEST_CASE("a virtual Omni rejects a delay of too many ticks before it takes memory for them") {
   const auto hand = std::make_shared<SteadyHand>();
