@@ -21,7 +21,8 @@ std::string read_bounded_file(const std::filesystem::path& file, std::size_t max
   if (std::filesystem::file_size(file, ignored) > max_mib << 20)
     refuse("the file is larger than " + std::to_string(max_mib) + " MiB", fix, "file.too-large");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse("the file cannot be read", "check its permissions (ls -l)", "file.unreadable");
+  if (!stream)
+    refuse("the file cannot be read", "check its permissions (ls -l)", "file.unreadable");
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   return std::move(bytes).str();
