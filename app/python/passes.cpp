@@ -2,17 +2,34 @@
 
 #include "app/python/arrays.h"
 #include "app/python/fast_arguments.h"
+#include "app/python/signals.h"
 #include "solver/dynamics/dynamics.h"
 
 namespace twinarm::python {
 namespace {
 
-constexpr std::size_t kCallsBetweenSignals = 4096;
-
-// Ctrl-C ends a long call.
-void check_signals_at(std::size_t call) {
-  if (call % kCallsBetweenSignals == kCallsBetweenSignals - 1 && PyErr_CheckSignals() != 0)
-    throw py::error_already_set();
+// f(robot, i) for i < count. Many calls work on a copy, so that other threads of Python may use the
+// robot meanwhile.
+template <class F>
+void for_calls(Robot& robot, std::size_t count, F f) {
+  constexpr std::size_t kMany = 256;
+  if (count < kMany) {
+    for (std::size_t i = 0; i < count; ++i) f(robot, i);
+    return;
+  }
+  Robot own(robot.input);
+  own.forces = robot.forces;
+  own.f_ext = robot.f_ext;
+  {
+    const py::gil_scoped_release other_threads;
+    for (std::size_t i = 0; i < count; ++i) {
+      f(own, i);
+      check_signals();
+    }
+  }
+  std::swap(robot.x, own.x);
+  std::swap(robot.of_aba, own.of_aba);
+  robot.has_run_aba |= own.has_run_aba;
 }
 
 void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot) {
@@ -52,15 +69,14 @@ PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject
     const Calls calls("aba", {&q, &qd, &tau});
     Output out("aba", a.at[5], calls, {nv});
     take_wrenches("aba", a.at[4], robot, robot.forces.f_ext);
-    for (std::size_t i = 0; i < calls.count; ++i) {
-      take_q("aba", q, i, robot);
-      qd.copy(i, robot.x.qd);
-      tau.copy(i, robot.forces.tau);
-      aba(robot.model, robot.x, robot.forces, robot.of_aba);
-      std::copy_n(robot.of_aba.qdd.data(), nv, out.row(i));
-      robot.has_run_aba = true;
-      check_signals_at(i);
-    }
+    for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
+      take_q("aba", q, i, of);
+      qd.copy(i, of.x.qd);
+      tau.copy(i, of.forces.tau);
+      aba(of.model, of.x, of.forces, of.of_aba);
+      std::copy_n(of.of_aba.qdd.data(), nv, out.row(i));
+      of.has_run_aba = true;
+    });
     return out.release();
   });
 }
@@ -76,14 +92,13 @@ PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
     const Calls calls("rnea", {&q, &qd, &qdd});
     Output out("rnea", a.at[5], calls, {nv});
     take_wrenches("rnea", a.at[4], robot, robot.f_ext);
-    for (std::size_t i = 0; i < calls.count; ++i) {
-      take_q("rnea", q, i, robot);
-      qd.copy(i, robot.x.qd);
-      qdd.copy(i, robot.qdd);
-      rnea(robot.model, robot.x, robot.qdd, robot.f_ext, robot.w);
-      std::copy_n(robot.w.tau.data(), nv, out.row(i));
-      check_signals_at(i);
-    }
+    for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
+      take_q("rnea", q, i, of);
+      qd.copy(i, of.x.qd);
+      qdd.copy(i, of.qdd);
+      rnea(of.model, of.x, of.qdd, of.f_ext, of.w);
+      std::copy_n(of.w.tau.data(), nv, out.row(i));
+    });
     return out.release();
   });
 }
@@ -99,11 +114,10 @@ PyObject* call_by_q(const char* function, PyObject* const* given, Py_ssize_t cou
     const Rows q(function, "q", a.at[1], robot.nq(), robot);
     const Calls calls(function, {&q});
     Output out(function, a.at[2], calls, {robot.model.nv, robot.model.nv});
-    for (std::size_t i = 0; i < calls.count; ++i) {
-      take_q(function, q, i, robot);
-      f(robot, out.row(i));
-      check_signals_at(i);
-    }
+    for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
+      take_q(function, q, i, of);
+      f(of, out.row(i));
+    });
     return out.release();
   });
 }

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "app/python/arrays.h"
+#include "app/python/signals.h"
 #include "app/record/recording_reader.h"
 
 namespace twinarm::python {
@@ -20,7 +21,7 @@ py::dict open_recording(const py::object& file) {
         pulls = zeros({frames, size(header.couplings), 3});
   py::array_t<long> step(frames);
   for (py::ssize_t n = 0; n < frames; ++n) {
-    if (n % 1024 == 1023 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+    check_signals();
     const RecordedFrame frame = recording.frame(static_cast<std::size_t>(n));
     *t.mutable_data(n) = frame.t;
     *step.mutable_data(n) = frame.step;

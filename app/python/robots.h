@@ -55,8 +55,6 @@ SimulateOptions run_options(const pybind11::object& file, const std::optional<do
                             const pybind11::object& set);
 pybind11::dict work_by_row(const std::vector<EnergyRow>& rows);
 pybind11::dict momentum_by_row(const std::vector<MomentumRow>& rows);
-void check_signals(double);  // RunWatch::tick; throws Python's exception
-bool is_signalled();         // RunWatch::interrupted
 
 // `before` with other coordinates and velocities (None: the same) at the time t.
 State<double> state_of(const Robot& robot, const pybind11::object& q, const pybind11::object& qd,

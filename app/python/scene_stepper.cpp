@@ -12,6 +12,7 @@
 #include "app/inspect/report/inspect_output.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
+#include "app/python/signals.h"
 #include "app/record/record_run.h"
 #include "app/run/stepped_run.h"
 #include "coupling/device/device_motion.h"
@@ -45,7 +46,7 @@ class SceneStepper : public OnlyConstructed {
   SceneStepper(const SimulateOptions& options, const py::object& record)
       : options_(options), plan_(prepare()) {
     robot = std::make_shared<Robot>(plan_.input.robot);
-    watch_.tick = check_signals;
+    watch_.tick = [](double) { check_signals(); };
     watch_.interrupted = is_signalled;
     if (!record.is_none()) {
       RecordingHeader header = header_of(options_, plan_, {"twinarm.SceneSimulation"});

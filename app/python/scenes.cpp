@@ -7,6 +7,7 @@
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
+#include "app/python/signals.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "app/support/text.h"
@@ -99,14 +100,17 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
   Samples samples;
   RunWatch watch;
   watch.sample = [&](double t, const State<double>& x) { samples.add(t, x, prepared.input); };
-  watch.tick = check_signals;
+  watch.tick = [](double) { check_signals(); };
   watch.interrupted = is_signalled;
   std::optional<RunRecorder> recorder;
   if (!record.is_none()) {
     recorder.emplace(path_of(record), header_of(options, prepared, {"twinarm.simulate"}), prepared);
     watch.look = [&](RunView& run) { recorder->look(run); };
   }
-  const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
+  const SimulateResult result = [&] {
+    const py::gil_scoped_release other_threads;
+    return run_plan(prepared.input, prepared.run, watch);
+  }();
   if (recorder)
     recorder->finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
   return run_attributes(samples, prepared.input, result);
@@ -132,13 +136,6 @@ std::string setting_text(const std::string& path, const py::handle& value) {
 }
 
 }  // namespace
-
-void check_signals(double) {
-  if (PyErr_Occurred() || PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-bool is_signalled() {
-  return PyErr_CheckSignals() != 0;  // the next tick throws the exception
-}
 
 py::dict work_by_row(const std::vector<EnergyRow>& rows) {
   py::dict all;

@@ -5,6 +5,7 @@
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
+#include "app/python/signals.h"
 #include "app/support/text.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
@@ -84,12 +85,10 @@ void one_step(RobotInMotion& moving) {
 }
 
 void step(RobotInMotion& moving, long count) {
-  constexpr long kBetweenSignals = 256;
   if (count < 0) throw py::value_error("count must not be negative");
   for (long n = 0; n < count; ++n) {
     one_step(moving);
-    if (n % kBetweenSignals == kBetweenSignals - 1 && PyErr_CheckSignals() != 0)
-      throw py::error_already_set();
+    check_signals();
   }
 }
 
