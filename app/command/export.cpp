@@ -149,6 +149,7 @@ void print_recording_json(const Recording& recording) {
     for (std::size_t n = 0; n < recording.size(); ++n) {
       check_interrupt();
       write_frame(json, recording, recording.frame(n));
+      fmt::print("{}", json.take());
     }
     json.end_array();
   };

@@ -19,7 +19,7 @@ std::string quoted(std::string_view text) {
 JsonWriter& JsonWriter::key(std::string_view name) {
   separate();
   if (depth_ == 1) {  // on a new line
-    if (text_.back() == ' ') text_.pop_back();
+    if (text_.ends_with(' ')) text_.pop_back();
     text_ += '\n';
   }
   text_ += quoted(name);

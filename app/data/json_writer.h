@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -121,6 +122,8 @@ class JsonWriter {
   }
 
   const std::string& str() const { return text_; }
+  // The text so far, without which writing goes on: for output in parts.
+  std::string take() { return std::exchange(text_, {}); }
 
  private:
   void open(char bracket);
