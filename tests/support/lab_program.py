@@ -48,12 +48,18 @@ class Program:
     def descriptors(self):
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))
 
-    def waited(self, name="lab run"):
-        """Time in which a runnable thread waited for the processor [s]; 0: unknown."""
+    def _schedule(self, name):
+        """Time on a processor and time of waiting for one, of a thread [s]; zeros: unknown."""
         for task in pathlib.Path(f"/proc/{self.process.pid}/task").iterdir():
             if (task / "comm").read_text().strip() == name and (task / "schedstat").exists():
-                return 1e-9 * int((task / "schedstat").read_text().split()[1])
-        return 0.0
+                return [1e-9 * int(number) for number in (task / "schedstat").read_text().split()[:2]]
+        return [0.0, 0.0]
+
+    def ran(self, name="lab run"):
+        return self._schedule(name)[0]
+
+    def waited(self, name="lab run"):
+        return self._schedule(name)[1]
 
     def processor(self):
         """Of each thread, by name and number [s]."""

@@ -173,12 +173,13 @@ class LiveSocket:
 
     def messages(self, timeout=10.0):
         """Messages as they come, (kind, decoded), until the wait is over."""
-        end = time.monotonic() + timeout
+        end, poll = time.monotonic() + timeout, select.poll()  # any number of descriptors
+        poll.register(self.socket, select.POLLIN)
         while self.waiting or (left := end - time.monotonic()) > 0:
             if self.waiting:
                 kind, payload = self.waiting.popleft()
                 yield kind, decoded(kind, payload)
-            elif select.select([self.socket], [], [], left)[0]:
+            elif poll.poll(1000 * left):
                 self.waiting.extend(self.pump())
 
     def wait_for(self, kind, condition=lambda message: True, timeout=TIMEOUT):

@@ -45,8 +45,8 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: any free one
   std::string token;
-  std::size_t max_clients = 32;
-  std::ptrdiff_t max_of_address = 32;  // clients
+  std::size_t max_clients = 64;
+  std::ptrdiff_t max_of_address = 64;  // clients
   std::ptrdiff_t max_posts = 8;        // at once
   std::size_t max_message = 64 << 10;  // of a client [bytes]
   std::size_t max_body = 32 << 20;     // of a POST [bytes]

@@ -207,13 +207,13 @@ TEST_CASE(
 TEST_CASE("WebSocket: the number of clients is limited, and a place is free when one leaves") {
   LabHost lab;
   std::vector<std::unique_ptr<RawClient>> clients;
-  for (int n = 0; n < 32; ++n) {
+  for (int n = 0; n < 64; ++n) {
     clients.push_back(std::make_unique<RawClient>(lab.server.port()));
     lab.open(*clients.back());
   }
   const auto refused = RawClient(lab.server.port()).ask(lab.upgrade(lab.cookie()));
   CHECK(refused.status == 503);
-  CHECK(refused.body.find("32 pages are open") != std::string::npos);
+  CHECK(refused.body.find("64 pages are open") != std::string::npos);
   CHECK(lab.is_alive());  // requests go on
   clients.pop_back();
   CHECK(comes_true([&] { return lab.closed == 1; }));
