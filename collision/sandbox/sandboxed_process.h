@@ -1,5 +1,8 @@
 // Runs work that may crash, not terminate or be taken over in a child process with limits: of time
 // and memory, without the parent's files, and unable to change anything (system_call_filter.h).
+//
+// The child is a copy of the process at that moment, without its other threads. Locks that these
+// held stay locked, but for glibc's own (heap, stdio, loader): `work` may take no others of theirs.
 #pragma once
 
 #include <cstddef>

@@ -1,23 +1,16 @@
-// Models with colours and textures in every format; readers that crash or do not terminate.
+// Models with colours and textures in every format.
 #include "collision/mesh_files/model_file.h"
 
 #include <doctest/doctest.h>
-#include <fcntl.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "collision/mesh_files/mesh_file.h"
-#include "collision/sandbox/sandboxed_process.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"
-#include "tests/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
@@ -106,59 +99,6 @@ TEST_CASE("an STL has no colour") {
       "endloop\nendfacet\nendsolid t\n"));
   REQUIRE(model.parts.size() == 1);
   CHECK(model.parts[0].has_color == 0);
-}
-
-TEST_CASE("work in a child returns its bytes, many or none") {
-  CHECK(run_limited([] { return std::string(); }).bytes.empty());
-  std::string many;
-  for (int i = 0; i < 1000000; ++i) many += std::to_string(i);
-  const ChildResult result = run_limited([&] { return many; });
-  CHECK(result.fault.empty());
-  CHECK(result.bytes == many);
-}
-
-TEST_CASE("a child that crashes, throws or does not terminate gives an error message") {
-  CHECK(run_limited([]() -> std::string { std::abort(); }).fault == "crashes");
-  CHECK(run_limited([]() -> std::string { throw 7; }).fault == "fails");
-  const ChildResult slow = run_limited(
-      []() -> std::string {
-        for (std::atomic<int> i = 0;;) ++i;
-      },
-      {.cpu_seconds = 1});
-  CHECK(contains(slow.fault, "more than 1 s"));
-  CHECK(slow.bytes.empty());
-}
-
-TEST_CASE("a child cannot write files, start programs or open connections, and sees no open file") {
-#ifndef TWINARM_SANITIZED
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder.write("kept", "");
-  const int open_here = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 100);
-  const ChildResult result = run_limited([&] {
-    const auto fails = [](long code) { return code < 0 && errno == EPERM ? '-' : '+'; };
-    const char* const words[] = {"/bin/true", nullptr};
-    return std::string{fails(open(file.c_str(), O_WRONLY)),
-                       fails(unlink(file.c_str())),
-                       fails(execv(words[0], const_cast<char* const*>(words))),
-                       fails(fork()),
-                       fails(socket(AF_INET, SOCK_STREAM, 0)),
-                       fcntl(open_here, F_GETFD) < 0 ? '-' : '+',
-                       open(file.c_str(), O_RDONLY) >= 0 ? 'r' : '?'};
-  });
-  CHECK(result.fault.empty());
-  CHECK(result.bytes == "------r");
-  close(open_here);
-#endif
-}
-
-TEST_CASE("a child that waits forever is killed, with an error message") {
-  const ChildResult waits = run_limited(
-      []() -> std::string {
-        while (true) pause();
-      },
-      {.wall_seconds = 1});
-  CHECK(waits.fault == "does not end within 1 s");
-  CHECK(waits.bytes.empty());
 }
 
 TEST_CASE("a packed model is unpacked completely; a truncated one is rejected") {
