@@ -26,7 +26,7 @@ void add_options(const OptionAdder& add, ZwidthOptions& options) {
   add("--friction", options.device.friction, "Coulomb friction [N]")->check(zero_or_more());
   add("--resolution", options.device.resolution, "resolution of the encoder [m]")
       ->check(zero_or_more());
-  add("--rate", options.device.rate, "rate of the haptic loop [Hz]")->check(above_zero(20'000));
+  add("--rate", options.device.rate, "rate of the haptic loop [Hz]")->check(between(1, 20000));
   add("--delay", options.device.delay, "delay from sensor to motor [ticks]")
       ->check(between(0, 1000));
   add.group("Measurement");

@@ -16,6 +16,7 @@
 #include <filesystem>
 
 #include "app/device/devices.h"
+#include "app/support/files.h"
 #include "app/support/progress.h"
 
 namespace twinarm {
@@ -57,7 +58,14 @@ GestureDevice::GestureDevice(GestureSource source, const VirtualOmniSettings& se
       input_(std::make_shared<DesktopInput>(settings.parameters)),
       omni_(input_, settings),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      thread_([this] { run(); }) {}
+      thread_([this] {
+        try {
+          run();
+        } catch (const std::exception& error) {
+          connected_ = false;
+          print_error("twinarm: {}: {}\n", description(), error.what());
+        }
+      }) {}
 
 GestureDevice::~GestureDevice() {
   const std::uint64_t one = 1;

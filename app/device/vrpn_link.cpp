@@ -77,7 +77,13 @@ void VrpnDevice::Link::run() {
   double retry = settings_.first_retry;
   do {
     const long before = poses_;
-    const Trouble trouble = connect_and_run();
+    const Trouble trouble = [&]() -> Trouble {
+      try {
+        return connect_and_run();
+      } catch (const std::exception& error) {
+        return {Trouble::lost, error.what(), "restart the server"};
+      }
+    }();
     bool first = false;
     {
       const std::lock_guard lock(mutex_);

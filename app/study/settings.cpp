@@ -28,6 +28,14 @@ class SettingsTable : public TableReader {
     missing(key, kFix);
     return TableReader::number(key).value_or(0);
   }
+  double positive(const std::string& key) {
+    missing(key, kFix);
+    return TableReader::positive(key).value_or(0);
+  }
+  double not_negative(const std::string& key) {
+    missing(key, kFix);
+    return TableReader::not_negative(key).value_or(0);
+  }
   std::string text(const std::string& key) {
     missing(key, kFix);
     return TableReader::text(key).value_or("");
@@ -44,8 +52,10 @@ class SettingsTable : public TableReader {
     return 0;
   }
   std::array<double, 2> range(const std::string& key) {
-    const std::vector<double> pair = numbers(key);
-    if (pair.size() == 2 && pair[0] > 0 && pair[0] <= pair[1]) return {pair[0], pair[1]};
+    missing(key, kFix);
+    const auto pair = TableReader::numbers(key, 2);
+    if (!pair) return {1, 1};
+    if (pair->at(0) > 0 && pair->at(0) <= pair->at(1)) return {pair->at(0), pair->at(1)};
     fault(key, "must be [low, high], both positive", kFix, "study.range");
     return {1, 1};
   }
@@ -53,6 +63,8 @@ class SettingsTable : public TableReader {
     std::vector<double> all;
     for (const Value& item : items(key, Value::Kind::number, "a list of finite numbers"))
       all.push_back(item.number);
+    if (std::ranges::any_of(all, [](double one) { return one <= 0; }))
+      fault(key, "must be positive numbers", kFix, "study.range");
     return all;
   }
   std::vector<std::string> texts(const std::string& key, std::size_t count) {
@@ -88,7 +100,7 @@ void read_robot(SettingsTable robot, const std::string& file, DiagnosticList& fa
   s.joints.gripper = robot.text("gripper");
   s.joints.gripper_open = robot.number("gripper_open");
   s.joints.gripper_closed = robot.number("gripper_closed");
-  s.added_mass = robot.number("added_mass");
+  s.added_mass = robot.not_negative("added_mass");
   const auto mounts = robot.tables("mount");
   if (mounts.size() != 2)  // one for each linear spring
     robot.fault("mount", "must be 2 tables [[robot.mount]]", kFix, "study.mounts");
@@ -114,10 +126,10 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   SettingsTable auxiliary = all.part("auxiliary"), protocol = all.part("protocol"),
                 person = all.part("operator"), obstacle = all.part("obstacle"),
                 far = all.part("far_target");
-  s.auxiliary_frequency_hz = auxiliary.number("frequency_hz");
-  s.auxiliary_damping_ratio = auxiliary.number("damping_ratio");
-  s.stop_stiffness = auxiliary.number("stop_stiffness");
-  s.stop_damping = auxiliary.number("stop_damping");
+  s.auxiliary_frequency_hz = auxiliary.positive("frequency_hz");
+  s.auxiliary_damping_ratio = auxiliary.not_negative("damping_ratio");
+  s.stop_stiffness = auxiliary.not_negative("stop_stiffness");
+  s.stop_damping = auxiliary.not_negative("stop_damping");
   s.rates_hz = protocol.numbers("rates_hz");
   if (!s.rates_hz.empty() && std::ranges::find(s.rates_hz, 60.0) == s.rates_hz.end())
     protocol.fault("rates_hz", "lacks 60 Hz, at which the report compares the laws", "add 60",
@@ -125,24 +137,24 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.search_rates_hz = protocol.numbers("search_rates_hz");
   s.identification_rates_hz = protocol.numbers("identification_rates_hz");
   s.sweep_times = protocol.numbers("sweep_times");
-  s.held_physics_hz = protocol.number("held_physics_hz");
-  s.implicit_frequency_hz = protocol.number("implicit_frequency_hz");
-  s.implicit_damping_ratio = protocol.number("implicit_damping_ratio");
+  s.held_physics_hz = protocol.positive("held_physics_hz");
+  s.implicit_frequency_hz = protocol.positive("implicit_frequency_hz");
+  s.implicit_damping_ratio = protocol.not_negative("implicit_damping_ratio");
   s.seed = person.whole("seed");
   s.seeds = person.whole("seeds");
   if (s.seeds < 10 || s.seeds > 10000)
     person.fault("seeds", "must be 10 to 10000", "100 take some seconds", "study.whole-number");
   s.operator_ranges.peak_speed = person.range("peak_speed");
   s.operator_ranges.tremor = person.range("tremor");
-  s.operator_duration = person.number("duration");
+  s.operator_duration = person.positive("duration");
   s.obstacle = {obstacle.vector("size"), obstacle.vector("position")};
-  s.contact_stiffness = obstacle.number("contact_stiffness");
-  s.contact_dissipation = obstacle.number("contact_dissipation");
-  s.contact_friction = obstacle.number("friction");
+  s.contact_stiffness = obstacle.positive("contact_stiffness");
+  s.contact_dissipation = obstacle.not_negative("contact_dissipation");
+  s.contact_friction = obstacle.not_negative("friction");
   s.far_target = {{far.vector("size"), far.vector("position")},
-                  far.number("rate_hz"),
-                  far.number("frequency_hz"),
-                  far.number("damping_ratio")};
+                  far.positive("rate_hz"),
+                  far.positive("frequency_hz"),
+                  far.not_negative("damping_ratio")};
   for (SettingsTable* table : {&all, &auxiliary, &protocol, &person, &obstacle, &far})
     table->done();
   faults.check();

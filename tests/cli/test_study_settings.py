@@ -1,4 +1,5 @@
 """Faults of the study's settings: all at once, each with its key, line and remedy."""
+import re
 import shutil
 
 from program import ROOT, ProgramTest, main
@@ -62,6 +63,20 @@ class Settings(ProgramTest):
                                   "robot, mount": "must be 2 tables [[robot.mount]]",
                                   "obstacle, friction": "must be finite, is inf",
                                   "obstacle, size": "must be a list of 3 finite numbers, is a list of 2"})
+
+    def test_numbers_outside_their_range_are_refused(self):
+        text = SHIPPED
+        for key, value in (("held_physics_hz", "0"), ("implicit_damping_ratio", "-1"), ("friction", "-0.1"),
+                           ("sweep_times", "[1.0, 0.0]"), ("tremor", "[2e-3, 1e-3]"), ("peak_speed", "[1.0]")):
+            text, count = re.subn(rf"(?m)^{key} = .*", f"{key} = {value}", text)
+            self.assertEqual(count, 1, key)
+        errors = {where: error["problem"] for where, error in self.faults_of(text).items()}
+        self.assertEqual(errors, {"protocol, held_physics_hz": "must be positive, is 0",
+                                  "protocol, implicit_damping_ratio": "must not be negative, is -1",
+                                  "obstacle, friction": "must not be negative, is -0.1",
+                                  "protocol, sweep_times": "must be positive numbers",
+                                  "operator, tremor": "must be [low, high], both positive",
+                                  "operator, peak_speed": "must be a list of 2 finite numbers, is a list of 1"})
 
     def test_the_rate_at_which_the_report_compares_the_laws_is_required(self):
         errors = self.faults_of(SHIPPED.replace("\nrates_hz = [30, 60,", "\nrates_hz = [30,"))

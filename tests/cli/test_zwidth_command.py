@@ -76,6 +76,11 @@ class Zwidth(unittest.TestCase):
             self.assertLess(row["max"], math.radians(30))
             self.assertLessEqual(row["mean"], row["max"])
 
+    def test_rates_without_an_end_to_the_computation_are_refused(self):
+        for rate in "1e-300", "0.5", "1e9":
+            done = run("zwidth", "--rate", rate)
+            self.assertEqual((done.returncode, "1 to 20000" in done.stderr), (2, True), rate)
+
     def test_the_picture_is_drawn_with_labels(self):
         answer()
         self.assertIn("Virtual walls of a haptic device", ANSWERS["svg"])

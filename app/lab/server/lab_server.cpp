@@ -95,6 +95,8 @@ struct LabServer::Impl {
 
   void accept() {
     acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
+      // check_timeouts() tries again: without free file descriptors, and after an exception.
+      needs_accept = true;
       error_code unknown;
       const std::string address = socket.remote_endpoint(unknown).address().to_string();
       if (!error && has_place(address)) {
@@ -103,12 +105,9 @@ struct LabServer::Impl {
         core->connections.insert(connection);
         connection->start();
       }
-      // Without free file descriptors check_timeouts() tries again.
-      if (error)
-        needs_accept = true;
-      else
-        accept();
+      if (!error) accept();
     });
+    needs_accept = false;
   }
 
   // Strangers have places of their own; the one that has waited longest gives up its place.
@@ -130,11 +129,11 @@ struct LabServer::Impl {
   void check_timeouts() {
     timer.expires_after(kTimeoutCheck);
     timer.async_wait([this](error_code) {
+      check_timeouts();  // also after an exception
       const Clock::time_point now = Clock::now();
       const auto all = core->connections;  // drop() removes them from it
       for (const auto& connection : all) connection->check_timeouts(now);
-      if (std::exchange(needs_accept, false)) accept();
-      check_timeouts();
+      if (needs_accept) accept();
     });
   }
 
