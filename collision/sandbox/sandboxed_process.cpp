@@ -81,10 +81,11 @@ int close_others(int pipe) {
 [[noreturn]] void run_child(const std::function<std::string()>& work, const ChildLimits& limits,
                             int pipe) {
   is_child = true;
-  // Default signal handlers: the child ends at once.
+  // Default signal handlers: the child ends at once. What the parent ignores, as under nohup, stays
+  // ignored.
   for (const int each :
        {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
-    std::signal(each, SIG_DFL);
+    if (std::signal(each, SIG_DFL) == SIG_IGN) std::signal(each, SIG_IGN);
   if (!kSanitized) discard_output();
   pipe = close_others(pipe);
   limit(RLIMIT_CORE, 0);

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -82,6 +83,14 @@ TEST_CASE("a child cannot write files, start programs or open connections, and s
   CHECK(result.bytes == "------r");
   close(open_here);
 #endif
+}
+
+TEST_CASE("a signal that its parent ignores does not end a child") {
+  const auto before = std::signal(SIGHUP, SIG_IGN);  // as nohup does
+  CHECK(run_limited([] { return std::to_string(std::raise(SIGHUP)); }).bytes == "0");
+  std::signal(SIGHUP, SIG_DFL);
+  CHECK(run_limited([] { return std::to_string(std::raise(SIGHUP)); }).fault == "was interrupted");
+  std::signal(SIGHUP, before);
 }
 
 TEST_CASE("a child that waits forever is killed, with an error message") {
