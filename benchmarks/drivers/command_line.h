@@ -1,9 +1,8 @@
-// Shared by the benchmark programs: options, exit codes, statistics of repetitions.
+// Shared by the benchmark programs: options and exit codes.
 #pragma once
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -36,18 +35,6 @@ Number positive(const std::string& text) {
 // An empty list contains all names.
 inline bool chosen(const std::vector<std::string>& list, std::string_view name) {
   return list.empty() || std::ranges::find(list, name) != list.end();
-}
-
-// NAN of no values.
-inline double median_of(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  std::ranges::sort(values);
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
-}
-// (longest - shortest) / median.
-inline double spread_of(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  return (high - low) / median_of(values);
 }
 
 // What an option sets: a list, a positive number, a flag; or what a flag does.

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/engines/engine.h"
+
 namespace twinarm::bench {
 
 struct Timing {
@@ -18,10 +21,46 @@ struct Timing {
   double spread = 0;  // (longest - shortest) / median
 };
 
+// NAN of no values.
+inline double median_of(std::vector<double> values) {
+  if (values.empty()) return NAN;
+  std::ranges::sort(values);
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+// (longest - shortest) / median.
+inline double spread_of(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return (high - low) / median_of(values);
+}
+
+inline double seconds_of(const std::function<void()>& job, long calls) {
+  const double start = thread_seconds();
+  for (long n = 0; n < calls; ++n) job();
+  return thread_seconds() - start;
+}
+// The number of calls that take about this time; also warms up.
+inline long calls_in(double seconds, const std::function<void()>& job) {
+  long calls = 1;
+  double spent = seconds_of(job, calls);
+  for (; spent < seconds / 10; spent = seconds_of(job, calls)) calls *= 10;
+  return std::max(1L, std::lround(seconds / spent * static_cast<double>(calls)));
+}
+
 // In every repetition all jobs run one after the other, each for about `seconds`, so that a
 // temporary load affects all.
-std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& jobs,
-                                     int repetitions, double seconds);
+inline std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& jobs,
+                                            int repetitions, double seconds) {
+  std::vector<long> calls;
+  for (const auto& job : jobs) calls.push_back(calls_in(seconds, job));
+  std::vector<std::vector<double>> ns(jobs.size());
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      ns[i].push_back(1e9 * seconds_of(jobs[i], calls[i]) / static_cast<double>(calls[i]));
+  std::vector<Timing> timings;
+  for (const std::vector<double>& of_job : ns)
+    timings.push_back({median_of(of_job), spread_of(of_job)});
+  return timings;
+}
 
 // `redrawn`: one line that is overwritten on a terminal; elsewhere a line every 5 s at most.
 enum class StageLines { all, redrawn };
