@@ -77,29 +77,15 @@ class ContactMeasure {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* usage =
-    R"(Times rigid-body engines on scenes with contacts; prints JSON on stdout, progress on stderr.
-
-  bench_contact [--models wall100,pyr55,scara] [--engines A,B] [--repetitions N] [--quick] [--list]
-
-  --models       default: all three
-  --engines      default: all of this build (--list prints their names)
-  --repetitions  of the whole run, default 3; the engines alternate every 50 steps
-  --quick        one repetition of the first 50 steps
-
-Example: bench_contact --models pyr55 --engines "twinarm double,bullet"
-Exit codes: 0 done; 2 bad option; 4 it failed.
-)";
-
 constexpr int steps_per_turn = 50;  // consecutive steps of one engine
 constexpr int settling = 300;       // steps until the piles are at rest
 constexpr double ns_per_s = 1e9;
 
 struct Options {
-  std::vector<std::string> models{timed_scene_names.begin(), timed_scene_names.end()};
-  std::vector<std::string> engines;  // empty: all
+  Names models{timed_scene_names.begin(), timed_scene_names.end()};
+  Names engines;  // empty: all
   int repetitions = 3;
-  bool quick = false, list = false;
+  bool quick = false;
 };
 
 Engines engines_of_build() {
@@ -109,11 +95,6 @@ Engines engines_of_build() {
     if (variants.front()->is_timed_with_contacts()) engines.push_back(std::move(variants.front()));
   }
   return engines;
-}
-
-void check(const Options& o) {
-  for (const std::string& model : o.models) timed_scene(model);
-  check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
 }
 
 // Of one engine in one scene.
@@ -207,10 +188,6 @@ Json json_of(const Row& row) {
 }
 
 int run(const Options& options) {
-  if (options.list) {
-    for (const std::string& name : names_of(engines_of_build())) std::cout << name << '\n';
-    return 0;
-  }
   Stages stages("bench_contact",
                 static_cast<double>(options.models.size()) * (1 + options.repetitions));
   Json rows = Json::array();
@@ -226,13 +203,22 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
+  CLI::App program(
+      "Times rigid-body engines on scenes with contacts; prints JSON on stdout, progress on "
+      "stderr.",
+      "bench_contact");
   Options o;
-  return run_program(
-      "bench_contact", usage, argc, argv,
-      {{"--models", &o.models},
-       {"--engines", &o.engines},
-       {"--repetitions", &o.repetitions},
-       {"--quick", [&] { o.quick = true, o.repetitions = 1; }},
-       {"--list", &o.list}},
-      [&] { return run(o); }, [&] { check(o); });
+  add_names(program, "--models", o.models, "default: all", o.models);
+  const Names engines = names_of(engines_of_build());
+  add_names(program, "--engines", o.engines, "default: all of this build", engines);
+  program.add_flag_callback(
+      "--quick", [&] { o.quick = true, o.repetitions = 1; },
+      "one repetition of the first 50 steps");
+  add_positive(program, "--repetitions", o.repetitions,
+               "of the whole run; the engines alternate every 50 steps");
+  add_list(program, "prints the engines", engines);
+  program.footer(
+      "Example: bench_contact --models pyr55 --engines \"twinarm double,bullet\"\n"
+      "Exit codes: 0 done; 2 bad option; 4 it failed.");
+  return run_program(program, argc, argv, [&] { return run(o); });
 }

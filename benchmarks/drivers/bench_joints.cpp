@@ -84,8 +84,8 @@ int run(int repetitions, double seconds) {
 
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
+  CLI::App program("Time per body by joint type.", "bench_joints");
   bool quick = false;
-  return run_program("bench_joints", "Time per body by joint type.\n\n  bench_joints [--quick]\n",
-                     argc, argv, {{"--quick", &quick}},
-                     [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
+  program.add_flag("--quick", quick, "one short repetition");
+  return run_program(program, argc, argv, [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
 }

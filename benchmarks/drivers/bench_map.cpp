@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <iostream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/map_runs.h"
@@ -19,38 +20,15 @@ namespace twinarm::bench {
 namespace {
 
 struct MapBenchOptions {
-  bool quick = false, json = false, passes = true, throughput = true;
+  bool quick = false, passes = true, throughput = true;
 };
-
-// One line of a table, or one object of a list.
-class Rows {
- public:
-  Rows(const char* name, bool json) : json_(json) {
-    if (json_) std::printf(",\n \"%s\": [", name);
-  }
-  ~Rows() {
-    if (json_) std::printf("]");
-  }
-  Rows(const Rows&) = delete;
-  template <class... T>
-  void add(const char* as_json, const char* as_text, T... values) {
-    if (json_) std::printf("%s\n  ", first_ ? "" : ",");
-    first_ = false;
-    std::printf(json_ ? as_json : as_text, values...);
-    std::fflush(stdout);
-  }
-
- private:
-  bool json_, first_ = true;
-};
+using Json = nlohmann::ordered_json;
 
 // All laws and discretizations, alternating with forward dynamics of the batch alone, with the
 // lanes of the map: one call for each state.
 template <int N>
-void compare_with_passes(const MapBenchOptions& options) {
-  if (!options.json)
-    std::printf("ns per step of a cell and of the batch's aba() alone, one core, %d lanes\n", N);
-  Rows rows("passes", options.json);
+Json compare_with_passes(bool quick) {
+  Json rows = Json::array();
   using S = Batch<N>;
   const auto model = convert<S>(ModelWithoutFixedJoints(locked_s103()).model);
   Workspace<S> w(model);
@@ -71,16 +49,18 @@ void compare_with_passes(const MapBenchOptions& options) {
       for (const auto discretization :
            {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         MapRuns map(law, discretization, energy, 4 * N, 1, 1.0);
-        const std::vector<Timing> times = time_interleaved(
-            {[&] { map.run(); }, aba_alone}, options.quick ? 3 : 9, options.quick ? 0.01 : 0.05);
+        const std::vector<Timing> times =
+            time_interleaved({[&] { map.run(); }, aba_alone}, quick ? 3 : 9, quick ? 0.01 : 0.05);
         const double step = times[0].ns / static_cast<double>(map.steps());
         const double aba = times[1].ns / static_cast<double>(states.size() * N);
-        rows.add(
-            R"({"law": "%s", "discretization": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
-            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, name_of(discretization),
-            options.json ? (energy ? "true" : "false") : (energy ? "with energies" : ""), step, aba,
-            step / aba);
+        rows.push_back({{"law", law.name},
+                        {"discretization", name_of(discretization)},
+                        {"energies", energy},
+                        {"ns", step},
+                        {"aba_ns", aba},
+                        {"ratio", step / aba}});
       }
+  return rows;
 }
 
 struct Quickest {
@@ -108,40 +88,36 @@ Quickest quickest(MapRuns& map, bool alone, bool quick) {
 }
 
 // Linear springs with implicit dampers.
-void measure_throughput(const MapBenchOptions& options) {
-  if (!options.json)
-    std::printf("million steps per second by the wall clock, linear semi-implicit, energies too\n");
-  Rows rows("throughput", options.json);
-  const double duration = options.quick ? 0.3 : 3;
-  const std::size_t max_cells = options.quick ? 16 : 1024, max_alone = options.quick ? 4 : 16;
+Json measure_throughput(bool quick) {
+  Json rows = Json::array();
+  const double duration = quick ? 0.3 : 3;
+  const std::size_t max_cells = quick ? 16 : 1024, max_alone = quick ? 4 : 16;
   for (const bool alone : {true, false})
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}})
       for (std::size_t cells = 1; cells <= (alone ? max_alone : max_cells); cells *= 2)
         for (const bool energy : {true, false}) {
           if (!energy && (alone || cells < max_cells)) continue;
           MapRuns map(kMapLaws[2], Discretization::semi_implicit, energy, cells, threads, duration);
-          const Quickest best = quickest(map, alone, options.quick);
-          const double steps = static_cast<double>(map.steps()), in = options.json ? 1 : 1e6;
-          rows.add(
-              R"({"lanes": %zu, "threads": %zu, "cells": %zu, "energies": %s, "steps_per_second": %.6g, "steps_per_cpu_second": %.6g})",
-              "%zu lanes, %zu threads, %4zu cells%s: %6.2f, by processor time %6.2f\n",
-              alone ? 1 : map.lanes(), threads, cells,
-              options.json ? (energy ? "true" : "false") : (energy ? "" : ", no energies"),
-              steps / best.wall / in, steps / best.busiest / in);
+          const Quickest best = quickest(map, alone, quick);
+          const auto steps = static_cast<double>(map.steps());
+          rows.push_back({{"lanes", alone ? 1 : map.lanes()},
+                          {"threads", threads},
+                          {"cells", cells},
+                          {"energies", energy},
+                          {"steps_per_second", steps / best.wall},
+                          {"steps_per_cpu_second", steps / best.busiest}});
         }
+  return rows;
 }
 
 int measure(const MapBenchOptions& options) {
   const Isa isa = best_isa();
-  if (options.json) std::printf("{\"isa\": \"%s\"", name_of(isa));
-  if (options.passes) {
-    if (isa == Isa::v4)
-      compare_with_passes<8>(options);
-    else
-      compare_with_passes<4>(options);
-  }
-  if (options.throughput) measure_throughput(options);
-  if (options.json) std::printf("}\n");
+  Json all = {{"isa", name_of(isa)}};
+  if (options.passes)
+    all["passes"] = isa == Isa::v4 ? compare_with_passes<8>(options.quick)
+                                   : compare_with_passes<4>(options.quick);
+  if (options.throughput) all["throughput"] = measure_throughput(options.quick);
+  std::cout << all.dump(1) << '\n';
   return 0;
 }
 
@@ -150,14 +126,10 @@ int measure(const MapBenchOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
+  CLI::App program("Time of a step of a map, and steps per second; prints JSON.", "bench_map");
   MapBenchOptions options;
-  return run_program("bench_map",
-                     "Time of a step of a map, and steps per second.\n\n"
-                     "  bench_map [--quick] [--json] [--passes | --throughput]\n",
-                     argc, argv,
-                     {{"--quick", &options.quick},
-                      {"--json", &options.json},
-                      {"--passes", [&] { options.throughput = false; }},
-                      {"--throughput", [&] { options.passes = false; }}},
-                     [&] { return measure(options); });
+  program.add_flag("--quick", options.quick, "short runs of few cells");
+  program.add_flag("!--throughput", options.passes, "steps per second alone");
+  program.add_flag("!--passes", options.throughput, "time of a step alone");
+  return run_program(program, argc, argv, [&] { return measure(options); });
 }

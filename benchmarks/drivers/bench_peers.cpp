@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -123,29 +124,11 @@ void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& sta
 
 using Json = nlohmann::ordered_json;  // numbers that are not finite become null
 
-constexpr const char* usage =
-    R"(Runs the same scenes in all engines of this build; prints JSON on stdout, progress on stderr.
-
-  bench_peers [--cases A,B] [--engines A,B] [--work-precision]
-              [--repetitions N] [--budget S] [--quick] [--list]
-
-  --cases           names or groups; default: all (--list prints them, and the engines)
-  --engines         default: all of this build
-  --work-precision  many steps and tolerances instead of 1 ms, for the cases that support it
-  --repetitions     default 3; in each, all engines run one after the other
-  --budget          maximum CPU time of one run [s], default 20
-  --quick           one repetition, budget 0.2 s
-
-Example: bench_peers --cases C2,E2-slide --engines twinarm,mujoco
-Exit codes: 0 done; 2 bad option; 4 it failed.
-)";
-
 struct Options {
-  std::vector<std::string> cases, engines;  // empty: all
+  Names cases, engines;  // empty: all
   bool work_precision = false;
   int repetitions = 3;
   double budget = 20;
-  bool list = false;
 };
 
 // Each kind with its first variant, which runs scenes.
@@ -165,14 +148,6 @@ std::vector<SceneCase> all_cases() {
   for (auto* family : {&smooth_cases, &contact_cases, &engine_cases})
     for (SceneCase& c : family()) all.push_back(std::move(c));
   return all;
-}
-
-void check(const Options& o) {
-  std::vector<std::string> cases, engines = missing_engines();  // accepted, and reported as missing
-  for (const SceneCase& c : all_cases()) cases.push_back(c.name), cases.push_back(c.group);
-  for (const EngineKind& kind : kinds_in_order()) engines.push_back(kind.name);
-  check_known(o.cases, cases, "case or group", "; see --list");
-  check_known(o.engines, engines, "engine", "; see --list");
 }
 
 std::vector<Row> rows_of(const SceneCase& c, const std::vector<Peer>& peers,
@@ -226,12 +201,6 @@ int run(const Options& options) {
     return (options.work_precision && !c.work_precision) ||
            !(chosen(options.cases, c.name) || chosen(options.cases, c.group));
   });
-  if (options.list) {
-    for (const SceneCase& c : cases)
-      std::cout << c.name << "  " << c.group << "  " << c.what << '\n';
-    for (const Peer& peer : peers) std::cout << peer.name << '\n';
-    return 0;
-  }
   Json answer = {{"cases", Json::array()}, {"refused", Json::array()}};
   for (const SceneCase& c : cases) {
     answer["cases"].push_back(json_of(c));
@@ -265,15 +234,33 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
+  CLI::App program(
+      "Runs the same scenes in all engines of this build; prints JSON on stdout, progress on "
+      "stderr.",
+      "bench_peers");
   Options o;
-  return run_program(
-      "bench_peers", usage, argc, argv,
-      {{"--cases", &o.cases},
-       {"--engines", &o.engines},
-       {"--work-precision", &o.work_precision},
-       {"--repetitions", &o.repetitions},
-       {"--budget", &o.budget},
-       {"--quick", [&] { o.repetitions = 1, o.budget = 0.2; }},
-       {"--list", &o.list}},
-      [&] { return run(o); }, [&] { check(o); });
+  std::set<std::string> cases;
+  Names lines, engines = missing_engines();  // accepted, and reported as missing
+  for (const SceneCase& c : all_cases()) {
+    cases.insert({c.name, c.group});
+    lines.push_back(c.name + "  " + c.group + "  " + c.what);
+  }
+  for (const EngineKind& kind : kinds_in_order()) {
+    engines.push_back(kind.name);
+    lines.push_back(kind.name);
+  }
+  add_names(program, "--cases", o.cases, "names or groups; default: all", cases);
+  add_names(program, "--engines", o.engines, "default: all of this build", engines);
+  program.add_flag("--work-precision", o.work_precision,
+                   "many steps and tolerances instead of 1 ms, for the cases that support it");
+  program.add_flag_callback(
+      "--quick", [&] { o.repetitions = 1, o.budget = 0.2; }, "one repetition, budget 0.2 s");
+  add_positive(program, "--repetitions", o.repetitions,
+               "in each, all engines run one after the other");
+  add_positive(program, "--budget", o.budget, "maximum CPU time of one run [s]");
+  add_list(program, "prints the cases and the engines", lines);
+  program.footer(
+      "Example: bench_peers --cases C2,E2-slide --engines twinarm,mujoco\n"
+      "Exit codes: 0 done; 2 bad option; 4 it failed.");
+  return run_program(program, argc, argv, [&] { return run(o); });
 }

@@ -15,22 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* usage =
-    R"(Times rigid-body engines on the same mechanisms; prints JSON on stdout, progress on stderr.
-
-  bench_speed [--models A,B] [--engines A,B] [--algorithms fd,id,crba,fk,step]
-              [--repetitions N] [--seconds S] [--quick] [--list]
-
-  --models       scara3, puma6, humanoid30, chainN; default: the six of the published table
-  --engines      default: all of this build (--list prints their names)
-  --repetitions  default 9; each runs all engines one after the other
-  --seconds      of each engine in each repetition, default 0.02
-  --quick        3 repetitions of 0.003 s
-
-Example: bench_speed --models puma6,chain32 --algorithms fd
-Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); 2 bad option; 4 it failed.
-)";
-
 constexpr std::pair<Algorithm, const char*> algorithms[] = {{Algorithm::forward_dynamics, "fd"},
                                                             {Algorithm::inverse_dynamics, "id"},
                                                             {Algorithm::mass_matrix, "crba"},
@@ -38,12 +22,10 @@ constexpr std::pair<Algorithm, const char*> algorithms[] = {{Algorithm::forward_
                                                             {Algorithm::step, "step"}};
 
 struct Options {
-  std::vector<std::string> models = {"scara3",  "puma6",    "chain7",
-                                     "chain32", "chain128", "humanoid30"};
-  std::vector<std::string> engines, wanted;  // algorithms; empty: all
+  Names models = {"scara3", "puma6", "chain7", "chain32", "chain128", "humanoid30"};
+  Names engines, algorithms;  // empty: all
   int repetitions = 9;
   double seconds = 0.02;
-  bool list = false;
 };
 
 Engines engines_of_build() {
@@ -54,11 +36,14 @@ Engines engines_of_build() {
   return engines;
 }
 
-void check(const Options& o) {
-  for (const std::string& model : o.models) mechanism(model);
-  check_known(o.wanted, {"fd", "id", "crba", "fk", "step"}, "algorithm",
-              ": there are fd, id, crba, fk, step");
-  check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
+// Why there is no such model; empty if there is.
+std::string fault_of_model(const std::string& name) {
+  try {
+    mechanism(name);
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return {};
 }
 
 // ---- agreement of the results ----
@@ -129,7 +114,7 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
   }
 
   for (const auto& [algorithm, name] : algorithms) {
-    if (!chosen(options.wanted, name)) continue;
+    if (!chosen(options.algorithms, name)) continue;
     std::vector<std::function<void()>> jobs;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < engines.size(); ++i) {
@@ -163,12 +148,8 @@ Json json_of(const Agreement& a) {
 }
 
 int run(const Options& options) {
-  if (options.list) {
-    for (const std::string& name : names_of(engines_of_build())) std::cout << name << '\n';
-    return 0;
-  }
   const auto of_a_model = std::ranges::count_if(
-      algorithms, [&](const auto& each) { return chosen(options.wanted, each.second); });
+      algorithms, [&](const auto& each) { return chosen(options.algorithms, each.second); });
   Stages stages("bench_speed",
                 static_cast<double>(options.models.size()) * static_cast<double>(of_a_model));
   Json result = {{"rows", Json::array()}, {"agreement", Json::array()}};
@@ -185,15 +166,28 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
+  CLI::App program(
+      "Times rigid-body engines on the same mechanisms; prints JSON on stdout, progress on stderr.",
+      "bench_speed");
   Options o;
-  return run_program(
-      "bench_speed", usage, argc, argv,
-      {{"--models", &o.models},
-       {"--engines", &o.engines},
-       {"--algorithms", &o.wanted},
-       {"--repetitions", &o.repetitions},
-       {"--seconds", &o.seconds},
-       {"--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }},
-       {"--list", &o.list}},
-      [&] { return run(o); }, [&] { check(o); });
+  program
+      .add_option("--models", o.models,
+                  "scara3, puma6, humanoid30, chainN; default: the six of the published table")
+      ->delimiter(',')
+      ->check(fault_of_model);
+  const Names engines = names_of(engines_of_build());
+  add_names(program, "--engines", o.engines, "default: all of this build", engines);
+  add_names(program, "--algorithms", o.algorithms, "default: all",
+            Names{"fd", "id", "crba", "fk", "step"});
+  program.add_flag_callback(
+      "--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }, "3 repetitions of 0.003 s");
+  add_positive(program, "--repetitions", o.repetitions,
+               "each runs all engines one after the other");
+  add_positive(program, "--seconds", o.seconds, "of each engine in each repetition");
+  add_list(program, "prints the engines", engines);
+  program.footer(
+      "Example: bench_speed --models puma6,chain32 --algorithms fd\n"
+      "Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); "
+      "2 bad option; 4 it failed.");
+  return run_program(program, argc, argv, [&] { return run(o); });
 }
