@@ -12,7 +12,6 @@
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/map_runs.h"
 #include "benchmarks/drivers/timing.h"
-#include "coupling/batch/batch_model.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
 
@@ -30,7 +29,7 @@ template <int N>
 Json compare_with_passes(bool quick) {
   Json rows = Json::array();
   using S = Batch<N>;
-  const auto model = convert<S>(ModelWithoutFixedJoints(locked_s103()).model);
+  const auto model = convert<S>(locked_s103());
   Workspace<S> w(model);
   const Forces<S> forces(model);
   std::vector<State<S>> states(8, State<S>(model));

@@ -10,37 +10,23 @@
 #include <vector>
 
 #include "benchmarks/engines/engine.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "coupling/batch/batch_model.h"
 #include "coupling/batch/batch_run.h"
 #include "coupling/target/operator_motion.h"
-#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::bench {
 
-// assets/robots/s103 without meshes; the gripper at its upper limit, one body with the quill.
+// assets/robots/s103 with the gripper at its upper limit, one body with the quill.
 inline Model<double> locked_s103() {
-  const auto inertia = [](double m, double x, double z, double xx, double xz, double yy,
-                          double zz) {
-    BodyInertia body{m, {x, 0, z}, Matrix3::Zero()};
-    body.inertia << xx, 0, xz, 0, yy, 0, xz, 0, zz;
-    return body;
-  };
-  ModelBuilder builder;
-  const auto hinge = [&](const char* name, const char* joint, int parent, double x, double z,
-                         const BodyInertia& body) {
-    return builder.add_body(name, parent, joint, JointType::revolute,
-                            {Matrix3::Identity(), {x, 0, z}}, Vector3::UnitZ(), body);
-  };
-  const int arm1 =
-      hinge("arm1", "joint1", 0, 0, 0.25,
-            inertia(5.011098, 0.0702135, 0.2152552, 0.0751362, -0.0242963, 0.1473617, 0.0832843));
-  const int arm2 =
-      hinge("arm2", "joint2", arm1, 0.25, 0.365,
-            inertia(2.981285, 0.1612192, 0.0704552, 0.0196957, 0.0038870, 0.0668750, 0.0523253));
-  const int quill = hinge("quill", "joint3", arm2, 0.35, 0.31625,
-                          inertia(0.45, 0.0000325, -0.2742602, 0.0113, 0, 0.0113, 0.00006));
-  builder.add_body("gripper", quill, "gripper_lift", JointType::fixed, {}, Vector3::UnitZ(),
-                   inertia(0.14, 0, -0.5337274, 0.0002, 0, 0.0002, 0.0001));
-  return builder.build();
+  RobotFileOptions options;
+  options.geometry = RobotFileOptions::Geometry::optional;
+  RobotDescription robot = read_urdf(TWINARM_SOURCE_DIR "/assets/robots/s103/s103.urdf", options);
+  JointDescription& lift = robot.joints.back();  // of the gripper
+  lift.origin.xyz += lift.upper * lift.axis;
+  lift.type = JointDescription::Type::fixed;
+  return ModelWithoutFixedJoints(build_model(robot)).model;
 }
 
 struct MapLaw {
