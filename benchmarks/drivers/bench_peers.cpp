@@ -117,7 +117,7 @@ void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& sta
   for (Row* row : repeated) row->seconds.clear();  // with cold caches
   for (int n = 0; n < repetitions && repetitions > 1; ++n)
     for (Row* row : repeated) {
-      stages.begin_seldom(name_of(*row) + ", again", row->expected);
+      stages.begin(name_of(*row) + ", again", row->expected);
       repeat(*row);
     }
 }
@@ -218,7 +218,7 @@ int run(const Options& options) {
     rows.push_back(rows_of(c, peers, options));
     for (const Row& row : rows.back()) expected += expected_of_all(row, options.repetitions);
   }
-  Stages stages("bench_peers", expected, StageLines::redrawn);
+  Stages stages("bench_peers", expected);
   Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
   for (auto& of_case : rows) {
     measure(of_case, options.repetitions, options.budget, stages);

@@ -62,38 +62,29 @@ inline std::vector<Timing> time_interleaved(const std::vector<std::function<void
   return timings;
 }
 
-// `redrawn`: one line that is overwritten on a terminal; elsewhere a line every 5 s at most.
-enum class StageLines { all, redrawn };
-
-// Progress on stderr: a line at the start of each stage, with the estimated time left. The time of
-// a stage is assumed to be proportional to its weight.
+// Progress on stderr, with the estimated time left: one line that is redrawn on a terminal;
+// elsewhere a line every 5 s at most. The time of a stage is assumed to be proportional to its
+// weight.
 class Stages {
  public:
-  Stages(std::string program, double total, StageLines lines = StageLines::all)
-      : program_(std::move(program)),
-        total_(total),
-        redrawn_(lines == StageLines::redrawn && isatty(STDERR_FILENO) == 1) {}
+  Stages(std::string program, double total) : program_(std::move(program)), total_(total) {}
   ~Stages() {
-    if (redrawn_) std::cerr << "\r\033[K" << std::flush;
+    if (terminal_) std::cerr << "\r\033[K" << std::flush;
   }
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
   void begin(const std::string& what, double weight = 1) {
-    std::cerr << (redrawn_ ? "\r\033[K" : "") << program_ << ": ";
-    if (done_ > 0)
-      std::cerr << std::lround(100 * done_ / total_) << " %, about "
-                << std::lround(seconds() / done_ * (total_ - done_)) << " s left: ";
-    std::cerr << what << (redrawn_ ? "" : "\n") << std::flush;
-    printed_ = seconds();
+    const double passed = seconds();
+    if (done_ == 0 || passed - printed_ > (terminal_ ? 0.1 : 5)) {
+      std::cerr << (terminal_ ? "\r\033[K" : "") << program_ << ": ";
+      if (done_ > 0)
+        std::cerr << std::lround(100 * done_ / total_) << " %, about "
+                  << std::lround(passed / done_ * (total_ - done_)) << " s left: ";
+      std::cerr << what << (terminal_ ? "" : "\n") << std::flush;
+      printed_ = passed;
+    }
     done_ += weight;
-  }
-  // One of many short stages.
-  void begin_seldom(const std::string& what, double weight) {
-    if (seconds() - printed_ < (redrawn_ ? 0.1 : 5))
-      done_ += weight;
-    else
-      begin(what, weight);
   }
   // Reduces the total weight; a negative weight increases it.
   void skip(double weight) { total_ -= weight; }
@@ -105,7 +96,7 @@ class Stages {
 
   std::string program_;
   double total_, done_ = 0, printed_ = 0;
-  bool redrawn_;
+  const bool terminal_ = isatty(STDERR_FILENO) == 1;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
