@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 
+#include "benchmarks/drivers/command_line.h"
 #include "benchmarks/engines/engine.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
@@ -22,7 +23,7 @@ std::vector<double> numbers(std::size_t count) {
   return all;
 }
 
-void answer(const std::filesystem::path& file) {
+int answer(const std::filesystem::path& file) {
   RobotFileOptions options;
   options.geometry = RobotFileOptions::Geometry::optional;
   const Model<double> model = build_model(read_urdf(file, options));
@@ -48,20 +49,16 @@ void answer(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < calls; ++i) call(i % count);
     std::cout << 1e9 * (thread_seconds() - start) / static_cast<double>(calls) << std::endl;
   }
+  return 0;
 }
 
 }  // namespace
 }  // namespace twinarm::bench
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: bench_python ROBOT.urdf (run by scripts/measure/bench_python)\n";
-    return 2;
-  }
-  try {
-    twinarm::bench::answer(argv[1]);
-  } catch (const std::exception& error) {
-    std::cerr << "bench_python: " << error.what() << '\n';
-    return 2;
-  }
+  CLI::App program("The C++ side of scripts/measure/bench_python.", "bench_python");
+  std::filesystem::path robot;
+  program.add_option("robot", robot, "URDF")->required();
+  return twinarm::bench::run_program(program, argc, argv,
+                                     [&] { return twinarm::bench::answer(robot); });
 }
