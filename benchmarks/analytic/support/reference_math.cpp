@@ -64,16 +64,6 @@ long double quarter_period(long double m) {
   return boost::math::ellint_1(std::sqrt(m));
 }
 
-long double arithmetic_geometric_mean(long double a, long double b) {
-  while (std::abs(a - b) > 1e-18L * std::abs(a)) {
-    const long double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    if (mean == a) break;
-    a = mean;
-  }
-  return a;
-}
-
 double zero_of_bessel(int k) {
   return boost::math::cyl_bessel_j_zero(0.0, k);
 }

@@ -43,7 +43,6 @@ struct SquaredCd {
   }
   long double half_period() const { return quarter_period(m) / k; }
 };
-long double arithmetic_geometric_mean(long double a, long double b);
 double zero_of_bessel(int k);  // the k-th positive zero of J_0, k from 1
 
 // Integral of a smooth f from a to b: adaptive Gauss-Kronrod, relative tolerance 1e-17.

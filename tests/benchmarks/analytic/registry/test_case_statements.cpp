@@ -35,6 +35,6 @@ TEST_CASE("cases: the sources on a page are those of this folder") {
   bool found = false;
   for (const EmbeddedFile& source : case_sources())
     found |= source.name == "joints/pendulum.cpp" &&
-             source.text.find("TrajectoryCase swing_time(int degrees)") != std::string_view::npos;
+             source.text.find("TrajectoryCase swing_in_plane()") != std::string_view::npos;
   CHECK(found);
 }
