@@ -1,11 +1,7 @@
-// D: mechanisms with closed loops (mechanisms/loop_cases.h) as known motions. Closed forms:
-//   D1  th = 2 asin(k sn(K - w0 t)), th' = -2 k w0 cn(K - w0 t); x = -sin th, z = -cos th
-//   D2  q'' = a sin q, a = c g / l, from upright at 1 rad/s: with W^2 = 1 + 4 a, m = 4 a / W^2 and
-//       u = W t / 2 - K(m), q = pi + 2 am(u, m), q' = W dn u
-//   D6  initially the crank rotates about its bearing and the rod about the wrist:
-//       E = (1/2) (I_crank w^2 + I_rod (w r/l)^2) = 1/8 J
-//   D7  a e^(i th2) + b e^(i th3) = d + c e^(i th4), and its derivative
-// D3 to D6 have reference values at the times of loop_cases.h, computed independently.
+// D: mechanisms with closed loops (mechanisms/loop_cases.h) as known motions. D3 to D6 have
+// reference values at the times of loop_cases.h, computed independently. D6: initially the crank
+// rotates about its bearing and the rod about the wrist:
+//   E = (1/2) (I_crank w^2 + I_rod (w r/l)^2) = 1/8 J
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,16 +45,9 @@ TrajectoryCase loop_motion(const MakeLoopCase& make) {
   for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
   motion.readings = c->readings;
   motion.observe = [c](ModelRef model, StateRef x) { return c->read(x, kinematics_at(model, x)); };
-  motion.reference = [c](double t) { return tabulated(*c, t); };
-  motion.at_times_only = true;
+  motion.reference = [c](double t) { return c->exact ? c->exact(t) : tabulated(*c, t); };
+  motion.at_times_only = !c->exact;
   motion.integration = rk4_with(c->step);
-  return motion;
-}
-// The same with a reference for all times.
-TrajectoryCase loop_motion(const MakeLoopCase& make, CaseReference reference) {
-  TrajectoryCase motion = loop_motion(make);
-  motion.reference = std::move(reference);
-  motion.at_times_only = false;
   return motion;
 }
 // The same with other readings at one time.
@@ -81,32 +70,6 @@ TrajectoryCase assembled(const std::shared_ptr<const LoopCase>& c,
     changed.model.Xtree[2].r = 1.001 * changed.model.Xtree[2].r;
   };
   return result;
-}
-
-// ---- D1 ----
-
-CaseReadings swinging(double t) {  // from 90 degrees at rest
-  const Real w0 = std::sqrt(9.81L), m = 0.5L, k = std::sqrt(m);
-  const special::Jacobi j = special::jacobi(special::quarter_period(m) - w0 * Real(t), m);
-  const Real angle = 2 * std::asin(k * j.sn);
-  return values(-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn);
-}
-
-// ---- D2 ----
-
-TrajectoryCase windows_motion(int count, double step) {
-  TrajectoryCase motion = loop_motion(
-      [count] { return windows(count); },
-      [count](double t) {
-        const Real n = count, c = ((n + 1) / 2 + n) / ((n + 1) / 3 + n), a = c * 9.81L;
-        const Real W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
-        const special::Jacobi j = special::jacobi(W * Real(t) / 2 - special::quarter_period(m), m);
-        const Real sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, rate = W * j.dn;
-        return values(sine, cosine, cosine * rate, -sine * rate);
-      });
-  motion.times = {1, 10};
-  motion.integration = rk4_with(step);
-  return motion;
 }
 
 // ---- D3, D4 ----
@@ -210,19 +173,6 @@ TrajectoryCase crank_energy() {
 
 // ---- D7 ----
 
-CaseReadings four_bar_closed_form() {
-  constexpr Real a = 0.1L, b = 0.35L, c = 0.3L, d = 0.4L, w2 = 10;
-  const Real th2 = kPi / 3;
-  // From the crank's end B to the rocker's pivot D; C is at distance b from B, c from D, above BD.
-  const Real x = d - a * std::cos(th2), y = -a * std::sin(th2), BD = std::hypot(x, y);
-  const Real at_B = std::acos((b * b + BD * BD - c * c) / (2 * b * BD));
-  const Real th3 = std::atan2(y, x) + at_B;
-  const Real th4 =
-      std::atan2(a * std::sin(th2) + b * std::sin(th3), a * std::cos(th2) + b * std::cos(th3) - d);
-  const Real w3 = -a * w2 * std::sin(th2 - th4) / (b * std::sin(th3 - th4));
-  const Real w4 = a * w2 * std::sin(th2 - th3) / (c * std::sin(th4 - th3));
-  return values(th3, th4, w3, w4);
-}
 // Assembled from an open state; rates from J qd = 0 with the crank's given.
 TrajectoryCase four_bar_place() {
   const auto c = std::make_shared<const LoopCase>(four_bar());
@@ -235,7 +185,7 @@ TrajectoryCase four_bar_place() {
     x.qd = {10, rates[0], rates[1]};
     return c->read(x, k);
   };
-  return assembled(c, c->readings, observer, four_bar_closed_form());
+  return assembled(c, c->readings, observer, c->reference[0].values);
 }
 
 }  // namespace
@@ -244,10 +194,11 @@ CaseFamily loop_motions_cases() {
   const auto springs = [] { return governor(Couplers::springs); };
   const auto rods = [] { return governor(Couplers::rods); };
   return {160,
-          {{"D1-hinge", pendulum_on_hinge().tolerance, loop_motion(pendulum_on_hinge, swinging)},
-           {"D1-circle", pendulum_on_circle().tolerance, loop_motion(pendulum_on_circle, swinging)},
-           {"D2-2", windows(2).tolerance, windows_motion(2, 1e-3)},
-           {"D2-40", windows(40).tolerance, windows_motion(40, 8e-3)},
+          {{"D1-hinge", pendulum_on_hinge().tolerance, loop_motion(pendulum_on_hinge)},
+           {"D1-circle", pendulum_on_circle().tolerance, loop_motion(pendulum_on_circle)},
+           {"D2-2", windows(2).tolerance, loop_motion([] { return windows(2); })},
+           {"D2-40", windows(40).tolerance,
+            integrated_by(rk4_with(8e-3), loop_motion([] { return windows(40); }))},
            {"D3", squeezer().tolerance, squeezer_motion()},
            {"D4", bricard().tolerance, loop_motion(bricard)},
            {"D5-springs", springs().tolerance, loop_motion(springs)},

@@ -3,9 +3,50 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmarks/analytic/support/smooth_parts.h"
+
 namespace twinarm {
 
 using namespace loop_parts;
+using smooth_parts::kPi, smooth_parts::Real;
+
+namespace {
+
+// D1, from 90 degrees at rest: th = 2 asin(k sn(K - w0 t)), th' = -2 k w0 cn(K - w0 t).
+CaseReadings swinging(double t) {
+  const Real w0 = std::sqrt(9.81L), m = 0.5L, k = std::sqrt(m);
+  const special::Jacobi j = special::jacobi(special::quarter_period(m) - w0 * Real(t), m);
+  const Real angle = 2 * std::asin(k * j.sn);
+  return values(-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn);
+}
+
+// D2, exact reduction: q'' = a sin q, a = c g / l, c = ((N + 1)/2 + N) / ((N + 1)/3 + N), from
+// upright at 1 rad/s. With W^2 = 1 + 4 a, m = 4 a / W^2 and u = W t / 2 - K(m):
+//   q = pi + 2 am(u, m),  q' = W dn u.
+CaseReadings swinging_posts(int count, double t) {
+  const Real n = count, c = ((n + 1) / 2 + n) / ((n + 1) / 3 + n), a = c * 9.81L;
+  const Real W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
+  const special::Jacobi j = special::jacobi(W * Real(t) / 2 - special::quarter_period(m), m);
+  const Real sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, rate = W * j.dn;
+  return values(sine, cosine, cosine * rate, -sine * rate);
+}
+
+// D7: a e^(i th2) + b e^(i th3) = d + c e^(i th4), and its derivative.
+CaseReadings four_bar_closed_form() {
+  constexpr Real a = 0.1L, b = 0.35L, c = 0.3L, d = 0.4L, w2 = 10;
+  const Real th2 = kPi / 3;
+  // From the crank's end B to the rocker's pivot D; C is at distance b from B, c from D, above BD.
+  const Real x = d - a * std::cos(th2), y = -a * std::sin(th2), BD = std::hypot(x, y);
+  const Real at_B = std::acos((b * b + BD * BD - c * c) / (2 * b * BD));
+  const Real th3 = std::atan2(y, x) + at_B;
+  const Real th4 =
+      std::atan2(a * std::sin(th2) + b * std::sin(th3), a * std::cos(th2) + b * std::cos(th3) - d);
+  const Real w3 = -a * w2 * std::sin(th2 - th4) / (b * std::sin(th3 - th4));
+  const Real w4 = a * w2 * std::sin(th2 - th3) / (c * std::sin(th4 - th3));
+  return values(th3, th4, w3, w4);
+}
+
+}  // namespace
 
 // A body of 1 kg, 0.25 kg m^2, hinged 0.5 m from its centre of mass: equivalent to a particle at
 // (I + m c^2) / (m c) = 1 m.
@@ -21,13 +62,7 @@ LoopCase pendulum_on_hinge() {
     return std::vector{2 * k.X_WL[1].p.x(), 2 * k.X_WL[1].p.z(), x.qd[1]};
   };
   c.readings = {"x [m]", "z [m]", "rate [rad/s]"};
-  // Angle and rate by elliptic functions, from 90 degrees at rest.
-  constexpr double at[4][3] = {{1, -1.4050273115247991, -1.7993090169070786},
-                               {2, 0.91664758966324498, 3.4552068990593298},
-                               {5, 1.2294518114853856, -2.5627875681926295},
-                               {10, 0.27868067356998295, -4.3431606928646831}};
-  for (const auto& [t, angle, rate] : at)
-    c.reference.push_back({t, {-std::sin(angle), -std::cos(angle), rate}});
+  c.set_exact(swinging, {1, 2, 5, 10});
   c.tolerance = 1e-8;
   return c;
 }
@@ -51,7 +86,6 @@ LoopCase pendulum_on_circle() {
   return c;
 }
 
-// Exact reduction: q'' = c (g / l) sin q, c = ((N + 1)/2 + N) / ((N + 1)/3 + N).
 LoopCase windows(int count) {
   LoopCase c{std::to_string(count) + " four-bars in a row"};
   ModelBuilder builder;
@@ -75,15 +109,7 @@ LoopCase windows(int count) {
     return std::vector{s, r, r * x.qd[0], -s * x.qd[0]};
   };
   c.readings = {"x of B0 [m]", "z of B0 [m]", "vx [m/s]", "vz [m/s]"};
-  if (count == 2)
-    c.reference = {
-        {1, {-0.1950203019494351, -0.9807992056621738, -6.676678036881158, 1.327578325160487}},
-        {10, {0.3284581115408154, 0.944518538178601, 1.423051470206944, -0.494868845487043}}};
-  if (count == 40)
-    c.reference = {
-        {1, {-0.1153568806321099, -0.9933241113004502, -6.669987523941772, 0.7746000986623433}},
-        {10, {0.1805122266867284, 0.9835727405823116, 1.148441277469414, -0.2107700667794239}},
-        {20, {0.4109011537629452, 0.9116799009719807, 1.56678537190907, -0.7061622355938373}}};
+  c.set_exact([count](double t) { return swinging_posts(count, t); }, {1, 10});
   return c;
 }
 
@@ -163,10 +189,7 @@ LoopCase four_bar() {
     return std::vector{x.q[0] + x.q[1], x.q[2], x.qd[0] + x.qd[1], x.qd[2]};
   };
   c.readings = {"coupler [rad]", "rocker [rad]", "coupler rate [rad/s]", "rocker rate [rad/s]"};
-  constexpr double deg = std::numbers::pi / 180;
-  c.reference = {{0,
-                  {36.022723330118301 * deg, 102.89032693082044 * deg, -2.1145763572233942,
-                   1.4730118774236057}}};
+  c.reference = {{0, four_bar_closed_form()}};
   c.tolerance = 1e-12;
   return c;
 }

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/dynamics/model_builder.h"
@@ -31,12 +33,19 @@ struct LoopCase {
     std::vector<double> values;
   };
   std::vector<Sample> reference{};
-  double step = 1e-3;       // of rk4
+  std::function<std::vector<double>(double t)> exact{};  // null: known at the samples only
+  double step = 1e-3;                                    // of rk4
   double tolerance = 1e-6;  // of the largest error of all readings at all times, with rk4
 
   void set_model(Model<double> made) {  // the start is at rest at q = 0
     model = std::move(made);
     start = State<double>(model);
+  }
+  // A closed form, and samples of it.
+  void set_exact(std::function<std::vector<double>(double t)> form,
+                 std::initializer_list<double> times) {
+    for (const double t : times) reference.push_back({t, form(t)});
+    exact = std::move(form);
   }
 };
 
