@@ -16,10 +16,9 @@ struct Roll {
 Roll billiard(double rim, double mu, double inertia = 1) {
   constexpr double R = 0.0286;
   ContactScene scene;
-  scene.add_floor(surface(mu));
   ContactScene::Body body{Sphere{R}, surface(mu), 0.17, {0, 0, R}, {2, 0, 0}, {0, rim / R, 0}};
   body.inertia = inertia * 0.4 * 0.17 * R * R * Matrix3::Identity();
-  const int ball = scene.start(body);
+  const int ball = scene.start_on_floor(body);
   const double before = scene.energy() - 0.17 * kGravity * R;
   Roll roll;
   while (scene.t() < 1) {

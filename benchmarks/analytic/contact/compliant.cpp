@@ -23,8 +23,7 @@ Slid slid(ContactResponse response, double mu, double stiffness = kPointStiffnes
   scene.response = response;
   ContactSurface soft = surface(mu);
   soft.stiffness = 2 * stiffness;  // two surfaces in series
-  scene.add_floor(soft);
-  const int block = scene.start(
+  const int block = scene.start_on_floor(
       {Box{Vector3::Constant(2 * kSliderHalf)}, soft, kSliderMass, {0, 0, kSliderHalf}});
   scene.run(1, kStep);
   if (!scene.ok()) return {NAN, NAN};

@@ -20,14 +20,13 @@ constexpr double kSteep = 1.107148717794090;  // cos^2 = 1/5 [rad]
 
 // Its direction from the lower end is (cos, 0, sin); it moves along -x.
 int add_rod(ContactScene& scene, double angle, double mu, double speed, double inertia = 1) {
-  scene.add_floor(surface(mu));
   const Vector3 up(std::cos(angle), 0, std::sin(angle));
   ContactScene::Body rod{Capsule{kRodRadius, kLength}, surface(mu), 1};
   rod.R = rotation_about(Vector3::UnitY(), std::numbers::pi / 2 - angle);
   rod.p = 0.5 * kLength * up + Vector3(0, 0, kRodRadius);
   rod.v = {-speed, 0, 0};
   rod.inertia = Vector3(inertia / 12, inertia / 12, 1e-6).asDiagonal();
-  return scene.start(rod);
+  return scene.start_on_floor(rod);
 }
 
 // mu at which n . J M^-1 J^T (n + mu x) changes its sign, by the solver's Jacobian and mass matrix.
@@ -37,8 +36,7 @@ double critical_friction(double angle, double inertia) {
   const Model<double>& model = scene.model();
   const State<double>& x = scene.simulation().state();
   const Eigen::MatrixXd M = mass_matrix(model, x);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics& k = scene.simulation().kinematics();
   const Vector3 end = k.X_WL[static_cast<std::size_t>(rod)] * Vector3(0, 0, -0.5 * kLength);
   const Eigen::MatrixXd J = point_jacobian(model, k, rod, end);
   const Eigen::Matrix3d A = J * solve_symmetric(M, J.transpose());

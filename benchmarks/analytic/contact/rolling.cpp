@@ -28,12 +28,11 @@ struct AfterASecond {
 AfterASecond roll(const Roller& roller, double mu, double gravity = 1, double radius = kBallRadius,
                   double incline = kRollerIncline) {
   ContactScene scene(gravity * tilted_gravity(incline));
-  scene.add_floor(surface(mu));
   ContactScene::Body body{Sphere{radius}, surface(mu), 1, {0, 0, radius}};
   body.inertia = roller.inertia * radius * radius * Matrix3::Identity();
   if (roller.inertia != kSphere.inertia)
     body.shape = Cylinder{radius, 0.1}, body.R = axis_along_y();
-  const int number = scene.start(body);
+  const int number = scene.start_on_floor(body);
   scene.run(1, kStep);
   return {scene.v(number).x(), radius * scene.w(number).y(), -scene.force(number).x(),
           scene.drift()};

@@ -16,8 +16,7 @@ constexpr double kSlide = 0.6571453944373284;  // g (sin 30 - 0.5 cos 30) [m/s^2
 
 // Cube of 2 kg, 0.2 m wide; on an incline x points downhill.
 int add_block(ContactScene& scene, double mu, const Vector3& v = Vector3::Zero()) {
-  scene.add_floor(surface(mu));
-  return scene.start({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
+  return scene.start_on_floor({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
 }
 
 CaseResult creep(double scale) {  // mu

@@ -16,13 +16,12 @@ CaseResult coin(double scale) {  // gravity
   constexpr double R = 0.0375, kThick = 1e-5, kLean = 10 * kDegree;
   const double rate = std::sqrt(4 * kGravity * std::sin(kLean) / R);
   ContactScene scene(scale);
-  scene.add_floor(surface(1));
   ContactScene::Body disc{Cylinder{R, kThick}, surface(1), 0.01};
   disc.R = rotation_about(Vector3::UnitY(), kLean);
   disc.p = {0, 0, R * std::sin(kLean) + 0.5 * kThick * std::cos(kLean)};
   disc.w = -rate * disc.R.col(0);
   disc.inertia = 0.01 * R * R * Vector3(0.25, 0.25, 0.5).asDiagonal().toDenseMatrix();
-  const int body = scene.start(disc);
+  const int body = scene.start_on_floor(disc);
   scene.locate_events();
   const double error =
       scene.max_until(1, kStep, [&] { return (scene.p(body) - disc.p).norm() / R; });
@@ -37,7 +36,6 @@ struct Top {
 Top tippe_top(double offset_scale, double spin_scale) {
   constexpr double R = 0.015, kOffset = 0.003, kMass = 0.006, kFineStep = 1e-4;
   ContactScene scene;
-  scene.add_floor(surface(0.1));
   ContactScene::Body top{Sphere{R}, surface(0.1), kMass};
   top.shape_at = {0, 0, offset_scale * kOffset};
   const Vector3 moments = 0.4 * kMass * R * R * Vector3(1, 1, 1);
@@ -45,7 +43,7 @@ Top tippe_top(double offset_scale, double spin_scale) {
   top.R = rotation_about(Vector3::UnitY(), 0.1);
   top.p = Vector3(0, 0, R) - top.R * top.shape_at;
   top.w = {0, 0, 155 * spin_scale};
-  const int body = scene.start(top);
+  const int body = scene.start_on_floor(top);
   const auto jellett = [&] {
     const Matrix3 R_WL = scene.R(body);
     const Vector3 L = R_WL * moments.asDiagonal() * R_WL.transpose() * scene.w(body);
@@ -75,7 +73,6 @@ struct Rattle {
 int add_rattleback(ContactScene& scene, double spin, double Ixy_scale) {
   constexpr double kLean = 0.5 * kDegree;
   const Vector3 semi(0.2, 0.03, 0.02);
-  scene.add_floor(surface(1));
   ContactScene::Body stone{Ellipsoid{semi}, surface(1), 1};
   stone.shape_at = {0, 0, 0.01};
   const double Ixy = -2e-5 * Ixy_scale;
@@ -88,7 +85,7 @@ int add_rattleback(ContactScene& scene, double spin, double Ixy_scale) {
   stone.p = {0, 0, -to_contact.z()};
   stone.w = spin * stone.R.col(2);
   stone.v = -stone.w.cross(to_contact);
-  return scene.start(stone);
+  return scene.start_on_floor(stone);
 }
 Rattle rattleback(double spin, double duration, double Ixy_scale) {
   constexpr double kFineStep = 1e-4;

@@ -21,8 +21,7 @@ double tilt(const ContactScene& scene, int body) {
 // grows as cosh(5.2 t): to 0.01 rad at an incline of 1e-4 rad beyond the limit.
 bool topples(double incline, double mu, double width) {
   ContactScene scene(tilted_gravity(incline));
-  scene.add_floor(surface(mu));
-  const int body = scene.start(block(mu, width));
+  const int body = scene.start_on_floor(block(mu, width));
   scene.run(1, kStep);
   return tilt(scene, body) > 0.01;
 }
@@ -44,8 +43,7 @@ CaseResult slide_or_topple(double scale) {  // width
 CaseResult push_limit(double scale) {  // width
   const double limit = threshold(0.1, 0.3, 1e-4, [scale](double part) {
     ContactScene scene;
-    scene.add_floor(surface(1));
-    const int body = scene.start(block(1, scale * kWidth));
+    const int body = scene.start_on_floor(block(1, scale * kWidth));
     scene.apply([F = Vector3(part * kMass * kGravity, 0, 0), dof = scene.model().iv[1]](
                     const auto&, const Kinematics& k, Forces<double>& forces) {
       const Vector3 arm = k.X_WL[1].R * Vector3(0, 0, kHeight / 2);
@@ -94,11 +92,10 @@ CaseResult rocking(double scale) {  // width
   constexpr double kLean = 0.1;
   const double half = scale * kWidth / 2;
   ContactScene scene;
-  scene.add_floor(surface(1));
   ContactScene::Body body = block(1, 2 * half);
   body.R = rotation_about(Vector3::UnitY(), kLean);
   body.p = Vector3(half, 0, 0) - body.R * Vector3(half, 0, -kHeight / 2);
-  const int number = scene.start(body);
+  const int number = scene.start_on_floor(body);
   scene.locate_events();
   // Largest inclination to the other side.
   const double back = scene.max_until(0.3, kStep, [&] { return -scene.R(number)(0, 2); });

@@ -114,11 +114,7 @@ TrajectoryCase arm_accelerations() {
   return arm_case(
       {"q1'' [rad/s^2]", "q2'' [rad/s^2]"},
       [](const Model<double>& model, const ArmState& s) {
-        Workspace<double> w(model);
-        Forces<double> forces(model);
-        forces.tau = {s.tau1, s.tau2};
-        aba(model, state_of(model, s), forces, w);
-        return w.qdd;
+        return evaluate(model, state_of(model, s), {s.tau1, s.tau2}).qdd;
       },
       [](const ArmState& s, const PlanarArmTerms& terms) {
         const special::Two qdd = accelerations_of(terms, {s.tau1, s.tau2});

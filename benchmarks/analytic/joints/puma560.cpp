@@ -10,7 +10,6 @@
 #include "benchmarks/analytic/joints/puma560_values.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/loops/constrained_dynamics.h"
 
 namespace twinarm {
 namespace {
@@ -112,13 +111,9 @@ Model<double> links_alone(const Model<double>& model) {
 }
 // With the solver's joint friction.
 std::vector<double> puma_accelerations(const Model<double>& model) {
-  const State<double> x = puma_state(model, puma560::kNominal, puma560::kRate);
-  Forces<double> forces(model);
-  forces.tau.assign(puma560::kTorque.begin(), puma560::kTorque.end());
-  Workspace<double> w(model);
-  ForwardDynamics dynamics(model);
-  dynamics(x, forces, w);
-  return w.qdd;
+  return evaluate(model, puma_state(model, puma560::kNominal, puma560::kRate),
+                  values_of(puma560::kTorque))
+      .qdd;
 }
 
 // Maximum over groups of six readings of relative_to_largest().

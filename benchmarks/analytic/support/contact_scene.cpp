@@ -66,6 +66,11 @@ int ContactScene::start(const Body& body) {
   return number;
 }
 
+int ContactScene::start_on_floor(const Body& body) {
+  add_floor(body.surface);
+  return start(body);
+}
+
 void ContactScene::apply(ForceLaw::Law law) {
   forces_.push_back(std::make_unique<ForceLaw>(std::move(law)));
   simulation_->add(*forces_.back());

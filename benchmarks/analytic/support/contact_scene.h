@@ -19,7 +19,6 @@
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_source.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {
@@ -112,7 +111,8 @@ class ContactScene {
   void add_rotating(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                     double rate);  // about z of its frame [rad/s]
   void start();
-  int start(const Body& body);  // add() of the last body, and start()
+  int start(const Body& body);           // add() of the last body, and start()
+  int start_on_floor(const Body& body);  // with a floor of the body's surface
   // After start(): a further force. energy() does not include its work.
   void apply(ForceLaw::Law law);
   void apply_force(int body, const Vector3& force);   // at a free body's centre of mass, world axes

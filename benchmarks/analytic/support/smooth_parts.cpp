@@ -51,9 +51,10 @@ CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<doubl
   return scene;
 }
 
-Workspace<double> evaluate(ModelRef model, StateRef x) {
+Workspace<double> evaluate(ModelRef model, StateRef x, const std::vector<double>& tau) {
   Workspace<double> w(model);
   Forces<double> forces(model);
+  if (!tau.empty()) forces.tau = tau;
   kinematics(model, x, w);
   ForwardDynamics dynamics(model);
   dynamics(x, forces, w);

@@ -75,8 +75,8 @@ inline CaseReference constantly(CaseReadings values) {
   return [values](double) { return values; };
 }
 
-// Positions, velocities, and accelerations under gravity and joint friction.
-Workspace<double> evaluate(ModelRef model, StateRef x);
+// Positions, velocities, and accelerations under gravity, joint friction and joint torques.
+Workspace<double> evaluate(ModelRef model, StateRef x, const std::vector<double>& tau = {});
 std::vector<double> inverse_dynamics(const Model<double>& model, const State<double>& x,
                                      const std::vector<double>& qdd);
 // Reaction force of the joint of body 1, world axes [N].
