@@ -9,11 +9,6 @@
 // radius for 20 stones, and 0.1074780381 for infinitely many with round faces.
 // J. Heyman, "The safety of masonry arches", Int. J. Mech. Sci. 11, 1969; J. Ochsendorf, "The
 // masonry arch on spreading supports", The Structural Engineer 84(2), 2006.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

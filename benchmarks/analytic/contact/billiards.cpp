@@ -1,7 +1,4 @@
 // E5: billiard ball that slides until it rolls.
-#include <algorithm>
-#include <cmath>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

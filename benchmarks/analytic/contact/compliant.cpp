@@ -1,7 +1,4 @@
 // E18: the block of E2 slides down its incline on rigid and on compliant contacts.
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

@@ -1,6 +1,5 @@
 #include "benchmarks/analytic/contact/engine_tasks.h"
 
-#include <cmath>
 #include <random>
 
 #include "benchmarks/analytic/support/contact_scene.h"

@@ -1,8 +1,4 @@
 // E12: rolling in a bowl, in a trough, on a turntable and in an upright tube.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

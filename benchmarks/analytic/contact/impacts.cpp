@@ -1,8 +1,6 @@
 // E1: bouncing ball, by Newton's law of impact. E6: balls in a row; the impact law holds at all
 // contacts simultaneously, and with gaps between the balls the impacts follow one after the other.
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

@@ -1,5 +1,4 @@
 // E16: oblique impact with friction.
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

@@ -1,10 +1,7 @@
 // E7: Painleve's rod: a uniform rod of 1 m slides on its lower end, which leads. Above mu = (k^2 +
 // cos^2) / (sin cos), k^2 = 1/3, no compressive normal force solves the equations of motion; an
 // impulse does.
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 #include "solver/dynamics/dynamics.h"

@@ -1,7 +1,5 @@
 // E4: sphere, disc and hoop roll on an incline of 20 degrees.
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

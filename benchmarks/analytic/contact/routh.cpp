@@ -3,11 +3,6 @@
 // Uniform, 1 m and 1 kg, at 45 degrees, 2 m/s downwards, e = 0.5; J M^-1 J^T = [n t; t n] below.
 // If the end sticks (mu > t / n = 0.6), its tangential velocity becomes zero; else it slips, and
 // the tangential impulse is mu times the normal one. The end leaves with e times its speed before.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/geometry/convex_hull.h"
 

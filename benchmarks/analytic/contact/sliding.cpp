@@ -1,8 +1,5 @@
 // E2: sliding and sticking of a block on an incline and on the flat.
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

@@ -1,7 +1,4 @@
 // Bodies that spin on a floor: coin (E8), tippe-top (E9), rattleback (E10).
-#include <algorithm>
-#include <cmath>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

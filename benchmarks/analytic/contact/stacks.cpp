@@ -1,8 +1,4 @@
 // E11: stacks at rest: ten boxes, and a box on one of a hundredth of its mass.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

@@ -1,7 +1,4 @@
 // E3: a block 0.2 m wide and 0.5 m high topples. Planar motion; depth 0.3 m.
-#include <algorithm>
-#include <cmath>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {

@@ -2,9 +2,6 @@
 //
 // No gravity. The blocks are on a frictionless floor and are pressed together by 100 N; the wedge
 // points down and can only move up.
-#include <cmath>
-#include <vector>
-
 #include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/shapes/shape.h"
 

@@ -5,13 +5,9 @@
 // G3, a body at constant rate: the exponential update is exact and conserves |q| = 1.
 // G4, the slope of the error on C2 is the order (Hairer, Lubich, Wanner, Geometric Numerical
 // Integration, chapters I, VI).
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/trajectory_case.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

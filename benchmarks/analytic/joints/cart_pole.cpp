@@ -3,9 +3,6 @@
 //   (M + m) x'' + m l cos th th'' - m l sin th th'^2 + k x = 0,
 //   m l cos th x'' + J th'' + m g l sin th = 0.
 // About th = 0 and pi, k = 0:  w^2 = +- m g l / (J - m^2 l^2 / (M + m)).
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

@@ -6,9 +6,6 @@
 // plate rotates about the rod:
 //   (I0 + Bx cos^2 qB + By sin^2 qB) qA'' = 2 (Bx - By) s c qA' qB' - (mA LA + mB LB) g sin qA,
 //   Bz qB'' = -(Bx - By) s c qA'^2,  I0 = Ax + mA LA^2 + mB LB^2. Chaotic.
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

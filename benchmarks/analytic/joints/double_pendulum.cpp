@@ -3,9 +3,6 @@
 //   (J1 + m1 c1^2 + m2 l1^2) a1'' + K cos d a2'' + K sin d a2'^2 + (m1 c1 + m2 l1) g sin a1 = 0,
 //   K cos d a1'' + (J2 + m2 c2^2) a2'' - K sin d a1'^2 + m2 c2 g sin a2 = 0,
 // solved in extended precision. Two equal rods swing at w^2 = (3 -+ 6/sqrt 7) g/l.
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

@@ -6,7 +6,6 @@
 // exact).
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm {

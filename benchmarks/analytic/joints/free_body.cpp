@@ -10,14 +10,9 @@
 // Attitude: the axis a of dn, e1 or e3, precesses about H at
 //   psi' = H (2T - h_a^2 / I_a) / (H^2 - h_a^2),   h = I w;
 // the integral of psi' (of the third kind) and the direction of h give the attitude.
-#include <Eigen/Geometry>
-#include <cmath>
-
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm {

@@ -1,8 +1,6 @@
 // G1, and the part of G2 on the energy that the schemes gain or lose.
 #include "benchmarks/analytic/joints/golden_steps.h"
 
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

@@ -5,12 +5,7 @@
 // K_ii = m g a (n - i + 1/2), a = 1/n, i from 1; for n -> infinity w_k = j_(0,k)/2 sqrt(g/L).
 // C5, a folded chain, one end released, energy conserved (Calkin, March, Am. J. Phys. 57, 1989):
 // v^2 = 2 g x (1 - x/2L)/(1 - x/L); a chain of n links approximates it.
-#include <cmath>
-#include <numbers>
-
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {

@@ -5,13 +5,9 @@
 //   u'^2 = b (u0 - u) (u - u1) (u2 - u),    u1, u2 the roots of b (1 - u^2) = a^2 (u0 - u),
 //   u = u1 + (u0 - u1) cd^2(k t, m),        k = sqrt(b (u2 - u1)) / 2,  m = (u0 - u1) / (u2 - u1),
 //   phi' = a (u0 - u) / (1 - u^2),  psi' = w3 - phi' u        (precession, spin; z-x-z angles).
-#include <cmath>
-
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm {

@@ -2,9 +2,6 @@
 // (Landau, Lifshitz, Mechanics, section 30). From upright:  u'' = (g - a w^2 cos w t) sin(u) / l.
 // Upright is stable if the trace of the monodromy matrix is below 2: for w >= 156.65935736181
 // rad/s; averaging gives sqrt(2 g l) / a = 156.6.
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/stepping/simulation.h"
 

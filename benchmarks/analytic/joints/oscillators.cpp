@@ -4,9 +4,7 @@
 // Driven by F cos(W t): x = A cos(W t - phi) + a free motion, A (k - m W^2 + i c W) = F e^(i phi).
 // Coulomb friction Fc: half swings about -+ Fc / k, each by 2 Fc / k shorter, until |k x| <= Fc at
 // a reversal.
-#include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
 

@@ -8,10 +8,6 @@
 // horizontal it has qdd = 3 g / 2 L, and the hinge carries m g / 4; at the bottom 5/2 m g. Kater's
 // reversible pendulum: hinged at c or at c' from its centre it has the same period if c c' = L^2 /
 // 12; so the period is shortest at L / sqrt(12).
-#include <cmath>
-#include <numbers>
-
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

@@ -2,9 +2,6 @@
 // the closed form of planar_arm.h.
 #include "benchmarks/analytic/joints/planar_arm.h"
 
-#include <cmath>
-#include <string>
-
 #include "solver/dynamics/dynamics.h"
 
 namespace twinarm::smooth_parts {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <string>
 
 #include "benchmarks/analytic/joints/puma560_values.h"
 #include "benchmarks/analytic/support/smooth_parts.h"

@@ -4,8 +4,6 @@
 // cylindrical, planar and free joints: uncoupled coordinates, parabolas in time, for which every
 // second-order scheme is exact.
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/world_kinematics.h"

@@ -4,9 +4,6 @@
 //   z = z1 + (z2 - z1) cd^2(k t, m),  k = sqrt(g (z3 - z1) / 2),  m = (z2 - z1) / (z3 - z1),
 // from its highest point; the rate of the azimuth is L / (1 - z^2). About the conical pendulum,
 // angle a, W^2 = g / cos a, small oscillations have w^2 = W^2 (1 + 3 cos^2 a).
-#include <cmath>
-
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

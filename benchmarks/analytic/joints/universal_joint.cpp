@@ -2,10 +2,7 @@
 //   out' / in' = cos b / (cos^2(in) cos^2 b + sin^2(in)),   from cos b to 1 / cos b,
 // with the input's pin in the plane of the shafts at in = 0. And a plate of 1 m x 0.6 m, 1 kg, on a
 // universal joint at the middle of its short edge: w^2 = m g (1/2) / I about each axis.
-#include <cmath>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"
 

@@ -3,12 +3,9 @@
 // rotates about its bearing and the rod about the wrist:
 //   E = (1/2) (I_crank w^2 + I_rod (w r/l)^2) = 1/8 J
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"

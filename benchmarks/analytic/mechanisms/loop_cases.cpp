@@ -1,8 +1,5 @@
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 
 #include "benchmarks/analytic/support/analytic_case.h"
