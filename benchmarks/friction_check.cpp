@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -73,20 +72,18 @@ FrictionProblem read_problem(const std::string& file) {
 }
 
 // For each contact the first of the set that W couples it to.
-std::vector<Index> coupled_sets(const FrictionProblem& problem) {
-  std::vector<Index> next(static_cast<std::size_t>(problem.contacts()));
-  std::iota(next.begin(), next.end(), 0);
+Eigen::VectorX<Index> coupled_sets(const FrictionProblem& problem) {
+  const Index n = problem.contacts();
+  Eigen::VectorX<Index> next = Eigen::VectorX<Index>::LinSpaced(n, 0, n - 1);
   const auto first = [&](Index c) {
-    while (next[static_cast<std::size_t>(c)] != c) c = next[static_cast<std::size_t>(c)];
+    while (next[c] != c) c = next[c];
     return c;
   };
-  for (Index a = 0; a < problem.contacts(); ++a)
+  for (Index a = 0; a < n; ++a)
     for (Index b = 0; b < a; ++b)
-      if (!problem.W.block<3, 3>(3 * a, 3 * b).isZero(0))
-        next[static_cast<std::size_t>(first(a))] = first(b);
-  std::vector<Index> sets;
-  for (Index c = 0; c < problem.contacts(); ++c) sets.push_back(first(c));
-  return sets;
+      if (!problem.W.block<3, 3>(3 * a, 3 * b).isZero(0)) next[first(a)] = first(b);
+  for (Index& c : next) c = first(c);
+  return next;
 }
 
 // L with L L^T = A, without directions whose eigenvalues are rounding.
@@ -103,15 +100,14 @@ MatrixXd factor_of(const MatrixXd& A) {
 
 ImpulseProblem impulse_problem_of(const FrictionProblem& problem) {
   const Index n = problem.contacts();
-  const std::vector<Index> sets = coupled_sets(problem);
+  const Eigen::VectorX<Index> sets = coupled_sets(problem);
   ImpulseProblem made;
   std::vector<int> tree(static_cast<std::size_t>(n));
   std::vector<MatrixXd> J(static_cast<std::size_t>(n));  // by contact, 3 x rank of its set
   for (Index set = 0; set < n; ++set) {
     std::vector<Index> rows;
     for (Index c = 0; c < n; ++c)
-      if (sets[static_cast<std::size_t>(c)] == set)
-        rows.insert(rows.end(), {3 * c, 3 * c + 1, 3 * c + 2});
+      if (sets[c] == set) rows.insert(rows.end(), {3 * c, 3 * c + 1, 3 * c + 2});
     if (rows.empty()) continue;
     const MatrixXd L = factor_of(problem.W(rows, rows));
     const int t = made.add_tree(static_cast<int>(L.cols()));
