@@ -69,8 +69,7 @@ CaseResult small_sphere(double scale) {  // gravity
 // ---- plots ----
 
 double exact_rolling(std::size_t run, double t) {
-  constexpr double kInertia[] = {0.4, 0.5, 1};
-  return kGravity * std::sin(kRollerIncline) / (1 + kInertia[run]) * t;
+  return kGravity * std::sin(kRollerIncline) / (1 + kRollers[run].inertia) * t;
 }
 double exact_slipping(std::size_t k, double t) {
   const double friction = 0.05 * std::cos(kRollerIncline);

@@ -127,16 +127,15 @@ CaseResult min_friction_to_hold(double scale) {  // mu
 
 // ---- plots ----
 
-constexpr double kSlope = 30 * kDegree;
 const double kSlideAcceleration =
-    kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope));  // [m/s^2]
+    kGravity * (std::sin(kIncline) - 0.5 * std::cos(kIncline));  // [m/s^2]
 Values read_forces(Scene s) {
   if (s.t() == 0) return {NAN, NAN};
   return {-s.force(1).x(), s.force(1).z()};
 }
 // Constant deceleration until it stops, then constant acceleration downhill.
 double exact_uphill(std::size_t, double t) {
-  const double up = kGravity * (std::sin(kSlope) + 0.5 * std::cos(kSlope));
+  const double up = kGravity * (std::sin(kIncline) + 0.5 * std::cos(kIncline));
   const double top = 3 / up;
   return t < top ? 3 * t - up * t * t / 2
                  : 1.5 * top - kSlideAcceleration * (t - top) * (t - top) / 2;
@@ -157,7 +156,7 @@ CaseFamily sliding_cases() {
   const Plot uphill{{"distance uphill [m]"}, read_up, exact_uphill};
   const Plot distance{{"distance [m]"}, horizontal_distance, exact_stop};
   const auto exact_forces = [](std::size_t k, double) {
-    return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
+    return 2 * kGravity * (k == 0 ? std::sin(kIncline) : std::cos(kIncline));
   };
   return {
       210,
