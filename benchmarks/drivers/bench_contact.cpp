@@ -1,15 +1,10 @@
 // Time and contact quality of the engines on the same scenes with contacts. Prints JSON; the table
 // is made by scripts/measure/bench.
 
-#include <algorithm>
-#include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"
-#include "benchmarks/engines/engine.h"
 #include "benchmarks/scenes/mechanisms.h"
 #include "collision/detection/collision_world.h"
 #include "solver/dynamics/kinematics.h"

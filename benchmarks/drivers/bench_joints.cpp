@@ -1,11 +1,7 @@
 // Time per body by joint type: forward dynamics of chains of 16 bodies, every joint type in every
 // scalar, ns per body (and per state, for batches). Prints a table.
-#include <cmath>
 #include <cstdio>
-#include <functional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"

@@ -2,10 +2,6 @@
 // of a step relative to that of the batch's aba(), measured alternately, so that the ratio does not
 // depend on the load of the machine; and steps per second by cells, threads and lanes, which
 // scripts/measure/map_throughput draws.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 

@@ -2,19 +2,12 @@
 // (docs/understand/accuracy_vs_other_engines.md); table and figure are made by
 // scripts/measure/peers.
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"
-#include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/scene.h"
 
 namespace twinarm::bench {
 namespace {

@@ -4,8 +4,6 @@
 //
 // stdin: the number of states, then q, qd and a third vector of nv numbers for each; then lines
 // "ALGORITHM CALLS", each answered by the CPU time of a call [ns].
-#include <functional>
-#include <iostream>
 #include <map>
 
 #include "benchmarks/drivers/command_line.h"

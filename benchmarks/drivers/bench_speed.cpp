@@ -1,13 +1,9 @@
 // Time of the engines on the same mechanisms in the same situations. Prints JSON; table and figure
 // are made by scripts/measure/bench.
-#include <algorithm>
-#include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"
-#include "benchmarks/engines/engine.h"
 #include "benchmarks/scenes/mechanisms.h"
 
 namespace twinarm::bench {

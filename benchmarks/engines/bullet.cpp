@@ -10,9 +10,6 @@
 // Algorithms: those of btMultiBody; inverse dynamics and mass matrix are in a separate library of
 // Bullet, which is not used. Double precision; bench_contact uses single precision, its usual
 // build (Debian has both).
-#include <algorithm>
-#include <cmath>
-
 #include "benchmarks/engines/bullet_world.h"
 #include "benchmarks/engines/engine.h"
 

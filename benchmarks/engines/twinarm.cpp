@@ -1,14 +1,10 @@
 // twinarm: scenes and algorithms through its public interface. S is double, float or Batch<N>; a
 // batch takes N situations per call.
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
-#include "benchmarks/engines/engine.h"
 #include "benchmarks/engines/twinarm_sources.h"
-#include "benchmarks/scenes/mechanisms.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
 

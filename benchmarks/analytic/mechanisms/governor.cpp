@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "solver/forces/force_source.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {

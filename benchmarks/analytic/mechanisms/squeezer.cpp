@@ -8,7 +8,6 @@
 #include <array>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "solver/forces/force_source.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {
