@@ -1,6 +1,6 @@
 #include "app/command/command.h"
+#include "app/recipe/robot_recipe.h"
 #include "app/support/files.h"
-#include "collision/import/recipe/robot_recipe.h"
 
 namespace twinarm {
 namespace {

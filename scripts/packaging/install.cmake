@@ -32,7 +32,7 @@ install(EXPORT twinarm NAMESPACE twinarm:: FILE twinarm-targets.cmake
   DESTINATION ${cmake_folder} COMPONENT development)
 install(DIRECTORY solver collision coupling
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/twinarm COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN recipe_toml.h EXCLUDE)  # the one that shows toml++
+  FILES_MATCHING PATTERN "*.h")
 configure_package_config_file(${PACKAGING}/twinarm-config.cmake.in ${MADE}/twinarm-config.cmake
   INSTALL_DESTINATION ${cmake_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${MADE}/twinarm-config-version.cmake

@@ -28,8 +28,7 @@ OUTSIDE = {
     r"ft2build|freetype/": "Freetype::Freetype", r"zlib\.h": "ZLIB::ZLIB",
 }
 # Headers that show an outside library. Each is of use inside its own folder only.
-INNER_HEADERS = {"app/lab/server/connection.h", "collision/import/recipe/recipe_toml.h",
-                 "app/render/gl/gl_objects.h", "benchmarks/drivers/command_line.h"}
+INNER_HEADERS = {"app/lab/server/connection.h", "app/render/gl/gl_objects.h", "benchmarks/drivers/command_line.h"}
 SHOWN_HEADERS = {"app/command/parser/shared_options.h"}  # commands, which all link CLI11, add options with it
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -10,7 +10,7 @@ NO_CODE = "vert frag html toml csv json svg twinrec png".split()  # names of fil
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 MORE_TEXTS = {  # of codes whose text is elsewhere, and which are seen only as text
     "picture.read": "is neither a PNG nor a JPEG",
-    "mesh.mass": "the surface is not closed", "recipe.value": "'density' must be positive",
+    "mesh.mass": "the surface is not closed", "recipe.value": r"color: lies outside \[0, 1\]",
     "recipe.robot": "material 'x' does not exist", "change.number": "--set [^ ]*: not a number",
     "lab.missing": "^command: do: is missing", "lab.type": "^command: .* is .*; give ",
     "lab.unknown-command": "^command: do: there is no '"}

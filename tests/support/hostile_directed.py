@@ -60,7 +60,7 @@ def recordings(made):
 
 def recipes(stl):
     cube = next(DATA.parent.rglob("cube.toml")).read_bytes()
-    found = {"open/cube.toml": cube, "value.toml": cube.replace(b"density = 100", b"density = -1"),
+    found = {"open/cube.toml": cube, "value.toml": cube.replace(b"[1, 0, 0, 1]", b"[1, 0, 0, 2]"),
              "robot.toml": cube.replace(b'"heavy"', b'"x"')}
     for part in ("lower", "upper"):
         found |= {f"meshes/{part}.stl": stl, f"open/meshes/{part}.stl": stl.replace(b"facet", b"x", 1)}

@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "collision/import/recipe/robot_recipe.h"
+#include "app/recipe/robot_recipe.h"
 #include "collision/import/urdf/urdf.h"
 #include "tests/collision/import/robot/helpers.h"
 

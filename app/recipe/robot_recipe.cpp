@@ -1,6 +1,6 @@
 // Recipe -> meshes -> mass properties and hulls -> robot.
 
-#include "collision/import/recipe/robot_recipe.h"
+#include "app/recipe/robot_recipe.h"
 
 #include <Eigen/Geometry>
 #include <bit>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "app/recipe/recipe_file.h"
 #include "collision/geometry/convex_hull.h"
-#include "collision/import/recipe/recipe_file.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
 #include "collision/mesh_files/mesh_file.h"
@@ -33,17 +33,17 @@ class RobotFromCad {
     file_name(recipe_.name, "recipe", 1);
     for (const RecipeLink& link : recipe_.links) make_link(link);
     RobotCheck check = check_robot(result_.robot, true);
-    faults_.insert(faults_.end(), check.faults.begin(), check.faults.end());
+    faults_.add(check.faults);
     result_.robot.warnings = std::move(check.warnings);
-    throw_in_line_order(faults_);
+    throw_in_line_order(faults_.faults());
     result_.robot.root = find_root(result_.robot);
     return std::move(result_);
   }
 
  private:
   void fault(int line, std::string where, std::string problem, std::string fix) {
-    faults_.push_back({recipe_.file.string(), line, std::move(where), std::move(problem),
-                       std::move(fix), "recipe.robot"});
+    faults_.add({recipe_.file.string(), line, std::move(where), std::move(problem), std::move(fix),
+                 "recipe.robot"});
   }
 
   // Calls f and reports its errors with a line of the recipe.
@@ -146,7 +146,7 @@ class RobotFromCad {
     link.collisions.push_back(std::move(part));
   }
 
-  std::vector<Diagnostic> faults_;  // before recipe_, whose initialisation fills it
+  DiagnosticList faults_;  // before recipe_, whose initialisation fills it
   RecipeFile recipe_;
   RecipeResult result_;
   std::set<std::string> hull_names_;

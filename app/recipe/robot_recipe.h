@@ -1,5 +1,5 @@
 // Makes a robot from CAD: part meshes, materials and joints of a recipe
-// (collision/import/README.md).
+// (app/recipe/README.md).
 //
 // Mass, centre of mass and inertia of each link are integrals over its part meshes with the
 // densities of their materials. Each collision entry is the convex hull of the listed parts.

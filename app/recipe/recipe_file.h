@@ -46,6 +46,6 @@ struct RecipeFile {
 
 // Adds errors to `faults` and continues with default values. Throws InputError at once if the file
 // cannot be read or is not TOML.
-RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Diagnostic>& faults);
+RecipeFile read_recipe_file(const std::filesystem::path& path, DiagnosticList& faults);
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
 // Robots from recipes, against closed forms of boxes.
-#include "collision/import/recipe/robot_recipe.h"
+#include "app/recipe/robot_recipe.h"
 
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/toml/toml_file.h"
@@ -20,7 +20,7 @@ TriangleMesh box_mesh(const Vector3& low, const Vector3& high) {
 }
 
 // A cube of edge 1 m of two halves of different metals, in millimetres, on a foot.
-const std::string kCube = test_data("collision/import/recipe/cube.toml");
+const std::string kCube = test_data("app/recipe/cube.toml");
 
 struct CubeFolder : TemporaryFolder {
   CubeFolder() {
@@ -103,21 +103,22 @@ struct SpoiltRecipe {
 
 const SpoiltRecipe kSpoiltRecipes[] = {
     {"name = \"cube\"", "name = \"a/b\"", 1, "is used as a file name"},
-    {"name = \"cube\"", "name = 3", 1, "'name' must be a text that is not empty; give name = "},
-    {"name = \"foot\"", "", 12, "'name' is missing"},
-    {"[paper]\nunit = 0.5\nhinge = [1, 2, 3]", "paper = 3", 3,
-     "'paper' must be a table; write [paper]"},
-    {"[[joint]]", "[joint]", 24, "'joint' must be a list of tables; write [[joint]]"},
-    {"parts = [\"lower\", \"upper\"]", "parts = \"lower\"", 23, "'parts' must be a list of names"},
+    {"name = \"cube\"", "name = 3", 1, "name: must be a text, is 3"},
+    {"name = \"cube\"", "name = \"\"", 1, "name: must not be empty; give name = "},
+    {"name = \"foot\"", "", 12, "name: is missing; give name = "},
+    {"[paper]\nunit = 0.5\nhinge = [1, 2, 3]", "paper = 3", 3, "paper: must be a table, is 3"},
+    {"[[joint]]", "[joint]", 24, "joint: must be a list of tables, is a table; write [[joint]]"},
+    {"parts = [\"lower\", \"upper\"]", "parts = \"lower\"", 23, "parts: must be a list of names"},
     {"parts = [\"lower\", \"upper\"]", "parts = [\"lower\", 3]", 23,
-     "'parts' must be a list of names; give parts = "},
-    {"mesh_scale = 0.001", "mesh_scale = -1", 2, "'mesh_scale' must be positive"},
-    {"mesh_scale = 0.001", "mesh_scale = 0.001\nmesh_scal = 1", 3, "'mesh_scal' is not known"},
-    {"hinge = [1, 2, 3]", "hinges = [1, 2, 3]", 5, "'hinges' is not a joint"},
+     "parts: must be a list of names; give parts = "},
+    {"mesh_scale = 0.001", "mesh_scale = -1", 2, "mesh_scale: must be positive, is -1"},
+    {"mesh_scale = 0.001", "mesh_scale = 0.001\nmesh_scal = 1", 3,
+     "mesh_scal: unknown key; did you mean 'mesh_scale'?"},
+    {"hinge = [1, 2, 3]", "hinges = [1, 2, 3]", 5, "hinges: is not a joint"},
     {"hinge = [1, 2, 3]", "hinge = [1, 2]", 5, "3 finite numbers"},
-    {"density = 100", "density = 0", 7, "'density' must be positive"},
-    {"density = 100", "density = \"x\"", 7, "'density' must be a finite number"},
-    {"density = 100", "density = nan", 7, "'density' must be a finite number"},
+    {"density = 100", "density = 0", 7, "density: must be positive, is 0"},
+    {"density = 100", "density = \"x\"", 7, "density: must be a number, is the text 'x'"},
+    {"density = 100", "density = nan", 7, "density: must be finite"},
     {"color = [1, 0, 0, 1]", "color = [1, 0, 0, 2]", 8, "[0, 1]"},
     {"name = \"foot\"", "name = \"body\"", 14, "duplicate name"},
     {"mesh = \"upper\"", "mesh = \"none\"", 19, "none.stl"},
@@ -129,11 +130,11 @@ const SpoiltRecipe kSpoiltRecipes[] = {
      "parts = [\"lower\"]\n  [[link.collision]]\n  name = \"body_1\"\n  parts = [\"upper\"]", 24,
      "duplicate name of a collision; give each its own `name`"},
     {"type = \"revolute\"", "type = \"ball\"", 26, "is not supported; types: fixed"},
-    {"type = \"revolute\"", "type = \"screw\"", 24, "'pitch'"},
+    {"type = \"revolute\"", "type = \"screw\"", 24, "pitch: is missing"},
     {"parent = \"foot\"", "parent = \"nobody\"", 27, "'nobody' does not exist"},
     {"axis = [0, 0, 2]", "axis = [0, 0, 0]", 29, "its axis is zero"},
     {"limits = [-1, 2]", "limits = [3, 2]", 30, "above its upper limit"},
-    {"limits = [-1, 2]", "", 24, "'limits'"},
+    {"limits = [-1, 2]", "", 24, "limits: is missing"},
     {"damping = 0.25", "damping = -1", 31, "must not be negative"},
     {"damping = 0.25", "damping = 1\norigin = [0, 0, 0]", 32, "and in [paper]"},
     {"damping = 0.25", "damping = = 1", 31, "not well-formed TOML"},
