@@ -19,7 +19,7 @@ void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t min_byte
   memory.resize(items, min_bytes);
   for (T& item : items) f(item);
 }
-constexpr std::size_t kMinText = 8, kVector = 24, kMinContact = 16 + 4 * kVector;  // [bytes]
+constexpr std::size_t kMinText = 8, kMinContact = 16 + 4 * sizeof(Vector3);  // [bytes]
 
 // Calls f(name, member) for all options of a run, in the order of the file.
 template <class Run, class F>
@@ -55,8 +55,7 @@ void visit_run(StateArchive& memory, RecordedRun& run) {
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
       bool given = option.has_value();
       double value = option.value_or(0);
-      memory.visit(given);
-      memory.visit(value);
+      memory.visit(given, value);
       option = given ? std::optional(value) : std::nullopt;
     } else {
       memory.visit(option);
@@ -213,43 +212,23 @@ std::uint32_t checksum(const char* bytes, std::size_t count) {
 }
 
 void visit_version_2(StateArchive& memory, RecordingHeader& header) {
-  memory.visit(header.program);
-  visit_all(memory, header.command, kMinText, [&](std::string& word) { memory.visit(word); });
-  visit_all(memory, header.files, 2 * kMinText, [&](RecordedFile& file) {
-    memory.visit(file.path);
-    memory.visit(file.bytes);
-  });
+  memory.visit(header.program, header.command);
+  visit_all(memory, header.files, 2 * kMinText,
+            [&](RecordedFile& file) { memory.visit(file.path, file.bytes); });
   visit_run(memory, header.run);
-  memory.visit(header.integrator);
-  memory.visit(header.step);
-  memory.visit(header.duration);
-  memory.visit(header.seed);
-  visit_all(memory, header.columns, 2 * kMinText, [&](RecordedColumn& column) {
-    memory.visit(column.name);
-    memory.visit(column.unit);
-  });
-  visit_all(memory, header.couplings, kMinText, [&](std::string& name) { memory.visit(name); });
-  visit_all(memory, header.geometries, kMinText, [&](std::string& name) { memory.visit(name); });
+  memory.visit(header.integrator, header.step, header.duration, header.seed);
+  visit_all(memory, header.columns, 2 * kMinText,
+            [&](RecordedColumn& column) { memory.visit(column.name, column.unit); });
+  memory.visit(header.couplings, header.geometries);
 }
 
 void visit(StateArchive& memory, RecordedFrame& frame) {
-  memory.visit(frame.step);
-  memory.visit(frame.t);
-  memory.visit(frame.hash);
-  memory.visit(frame.values);
-  visit_all(memory, frame.coupling_forces, kVector, [&](Vector3& force) { memory.visit(force); });
+  memory.visit(frame.step, frame.t, frame.hash, frame.values, frame.coupling_forces);
   visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
-    memory.visit(contact.a);
-    memory.visit(contact.b);
-    memory.visit(contact.depth);
-    for (Vector3* v : {&contact.point, &contact.normal, &contact.force, &contact.couple})
-      memory.visit(*v);
+    memory.visit(contact.a, contact.b, contact.depth, contact.point, contact.normal, contact.force,
+                 contact.couple);
   });
-  memory.visit(frame.rows);
-  memory.visit(frame.works);
-  memory.visit(frame.momentum_rows);
-  visit_all(memory, frame.momenta, kVector, [&](Vector3& momentum) { memory.visit(momentum); });
-  memory.visit(frame.memory);
+  memory.visit(frame.rows, frame.works, frame.momentum_rows, frame.momenta, frame.memory);
 }
 
 std::string header_text(const RecordingHeader& header) {

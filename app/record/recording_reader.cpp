@@ -149,8 +149,7 @@ void Recording::take_frame(std::size_t begin, std::string_view payload) {
   StateArchive memory{std::string(payload.substr(0, 16))};
   long step = 0;
   double t = 0;
-  memory.visit(step);
-  memory.visit(t);
+  memory.visit(step, t);
   if (places_.size() == kMaxFrames)
     throw std::runtime_error("there are more than 16 million frames");
   if (!(t >= (places_.empty() ? -HUGE_VAL : places_.back().t)))

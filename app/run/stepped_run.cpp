@@ -16,13 +16,6 @@ namespace {
 constexpr long kCheckpoint = 1000;  // steps between checkpoints, for post-mortems
 constexpr long kEnergyEvery = 8;    // steps between checks of the energy, which cost a pass
 
-void visit_head(StateArchive& memory, long& steps, double& end, long& unsolved, long& unlocated) {
-  memory.visit(steps);
-  memory.visit(end);
-  memory.visit(unsolved);
-  memory.visit(unlocated);
-}
-
 // The row of this name; a new one is inserted before the last, `numerical`.
 EnergyRow& row_like(const EnergyRow& wanted, std::vector<EnergyRow>& rows) {
   const auto is_it = [&](const EnergyRow& row) { return row.name == wanted.name; };
@@ -37,7 +30,7 @@ StateArchive simulation_memory(const std::string& memory) {
   StateArchive all(memory);
   long steps = 0, unsolved = 0, unlocated = 0;
   double end = 0;
-  visit_head(all, steps, end, unsolved, unlocated);
+  all.visit(steps, end, unsolved, unlocated);
   return all;
 }
 
@@ -151,7 +144,7 @@ void SteppedRun::warn(std::string text) {
 }
 
 void SteppedRun::serialize(StateArchive& memory) {
-  visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
+  memory.visit(result_.steps, result_.end, unsolved_, unlocated_);
   sim_.serialize(memory);
   energy_balance_->serialize(memory);
   momentum_->serialize(memory);

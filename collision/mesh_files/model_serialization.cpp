@@ -7,27 +7,13 @@
 namespace twinarm {
 namespace {
 
-template <class Rows>
-void visit_rows(StateArchive& memory, Rows& rows) {
-  memory.resize(rows, sizeof(rows[0]));
-  for (auto& row : rows)
-    for (auto& number : row) memory.visit(number);
-}
-
 void visit_model(StateArchive& memory, ModelFile& model) {
   memory.resize(model.parts, 1);
-  for (ModelPart& part : model.parts) {
-    visit_rows(memory, part.positions);
-    visit_rows(memory, part.uv);
-    visit_rows(memory, part.triangles);
-    memory.visit(part.has_color);
-    for (float& number : part.color) memory.visit(number);
-    memory.visit(part.texture);
-  }
+  for (ModelPart& part : model.parts)
+    memory.visit(part.positions, part.uv, part.triangles, part.has_color, part.color, part.texture);
   memory.resize(model.textures, 1);
   for (ModelTexture& texture : model.textures) memory.visit(texture.name, texture.bytes);
-  memory.resize(model.notes, 1);
-  for (std::string& note : model.notes) memory.visit(note);
+  memory.visit(model.notes);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -50,6 +51,14 @@ class StateArchive {
   void visit(std::vector<T>& values) {
     resize(values, sizeof(T));
     for (T& value : values) visit(value);
+  }
+  template <class T, std::size_t N>
+  void visit(std::array<T, N>& values) {
+    for (T& value : values) visit(value);
+  }
+  void visit(std::vector<std::string>& texts) {
+    resize(texts, sizeof(std::uint64_t));
+    for (std::string& text : texts) visit(text);
   }
   template <class First, class Second, class... Rest>
   void visit(First& first, Second& second, Rest&... rest) {
