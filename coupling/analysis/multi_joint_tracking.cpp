@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
 #include "coupling/analysis/joint_space_stiffness.h"
@@ -33,20 +34,6 @@ Eigen::RowVectorXd coefficients(const ProfileSegment::Series& series) {
   row[kPowers] = series.c;
   row[kPowers + 1] = series.d;
   return row;
-}
-
-// exp(A) by scaling and squaring of a Taylor series.
-MatrixXd exponential(const MatrixXd& A) {
-  constexpr double kSmall = 0.25;
-  constexpr int kOrder = 12;
-  int squarings = 0;
-  double part = 1;
-  for (; A.cwiseAbs().rowwise().sum().maxCoeff() * part > kSmall; part /= 2) ++squarings;
-  const MatrixXd one = MatrixXd::Identity(A.rows(), A.cols());
-  MatrixXd sum = one;
-  for (int n = kOrder; n > 0; --n) sum = one + part / n * A * sum;
-  for (int n = 0; n < squarings; ++n) sum = MatrixXd(sum * sum);
-  return sum;
 }
 
 }  // namespace
@@ -120,7 +107,7 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
     z.tail(kTerms) << 1, VectorXd::Zero(kPowers - 1), 1, 0;
     const double until = p + 1 < pieces.size() ? pieces[p + 1].start : end;
     const double count = std::max(1.0, std::ceil(samples * (until - piece.start) / end));
-    const MatrixXd step = exponential((until - piece.start) / count * A);
+    const MatrixXd step = ((until - piece.start) / count * A).exp();
     for (double n = 0; n < count; ++n) {
       z = VectorXd(step * z);
       peak = peak.cwiseMax((shapes_ * z.head(m)).cwiseAbs());
