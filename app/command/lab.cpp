@@ -1,8 +1,7 @@
 // `twinarm lab`: interactive simulation in the browser (docs/use/lab.md).
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <unistd.h>
 #include <cctype>
 #include <cstdlib>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "app/lab/app/lab_routes.h"
 #include "app/lab/app/message_streamer.h"
 #include "app/lab/session/lab_session.h"
+#include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "collision/sandbox/isolated_parser.h"
@@ -111,16 +111,12 @@ std::string query_of(const LabOptions& options) {
 // If there is a display. Does not wait for the browser.
 void open_browser(const std::string& url) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  for (const int stream : {0, 1, 2})
-    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
-  std::string program = "xdg-open", address = url;
-  char* const words[] = {program.data(), address.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, words[0], &quiet, nullptr, words, environ) == 0)
-    std::thread([child] { waitpid(child, nullptr, 0); }).detach();
-  posix_spawn_file_actions_destroy(&quiet);
+  const std::filesystem::path program = find_program("xdg-open");
+  if (program.empty()) return;
+  const int quiet = open("/dev/null", O_RDWR | O_CLOEXEC);
+  const pid_t child = start_program({program.string(), url}, quiet, quiet, quiet);
+  close(quiet);
+  if (child != 0) std::thread([child] { exit_code_of(child); }).detach();
 }
 
 // Rejects devices that open files or sockets here: with --listen the page may be on another
