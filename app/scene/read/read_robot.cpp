@@ -117,20 +117,13 @@ void SceneReader::read_robot(const Value& value) {
 namespace {
 
 // Roll, pitch and yaw about fixed axes, as in Origin::pose().
-Vector3 fixed_angles(const Matrix3& R) {
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  if (std::hypot(R(0, 0), R(1, 0)) < 1e-12)  // gimbal lock: roll = 0
-    return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
-}
-
 // Makes the joint fixed at the position q.
 void fix_at(JointDescription& joint, double q) {
   const Matrix3 R = joint.X_PJ().R;
   if (joint.type == JointDescription::Type::prismatic)
     joint.origin.xyz += R * joint.axis * q;
   else if (q != 0)
-    joint.origin.rpy = fixed_angles(R * Eigen::AngleAxisd(q, joint.axis).toRotationMatrix());
+    joint.origin.turn_to(R * Eigen::AngleAxisd(q, joint.axis).toRotationMatrix());
   joint.type = JointDescription::Type::fixed;
 }
 

@@ -40,6 +40,15 @@ struct Origin {
         -sp, cp * sr, cp * cr;
     return {R, xyz};
   }
+  // Angles of R; at a pitch of +-90 degrees without roll.
+  void turn_to(const Matrix3& R) {
+    const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+    const double pitch = std::atan2(-R(2, 0), cos_pitch);
+    if (cos_pitch < 1e-12)
+      rpy = {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
+    else
+      rpy = {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+  }
 };
 
 struct MeshGeometry {               // loaded by collision/import/robot/robot_model.h

@@ -30,13 +30,6 @@ std::string fix_for(const std::string& value) {
 }
 
 // R = Rz(yaw) Ry(pitch) Rx(roll); at pitch = +-90 degrees only yaw -+ roll matters: roll is 0.
-Vector3 roll_pitch_yaw(const Matrix3& R) {
-  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
-  const double pitch = std::atan2(-R(2, 0), cos_pitch);
-  if (cos_pitch < 1e-12) return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
-}
-
 std::string shortened(const std::string& value) {
   constexpr std::size_t kMaxLength = 80;
   return value.size() <= kMaxLength ? value : value.substr(0, kMaxLength) + "...";
@@ -178,7 +171,7 @@ Origin UrdfSource::origin(const XmlElement& parent, const std::string& where) {
   if (const auto q = numbers(*element, "quat_xyzw", where, 4)) {
     const Eigen::Quaterniond rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
     if (rotation.norm() > 1e-9)
-      origin.rpy = roll_pitch_yaw(rotation.normalized().toRotationMatrix());
+      origin.turn_to(rotation.normalized().toRotationMatrix());
     else
       fault(element->line, where, "its quat_xyzw is zero", "give a unit quaternion", "urdf.number");
   }
