@@ -1,7 +1,6 @@
 #include "app/support/text.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "solver/support/number_text.h"
 
@@ -10,16 +9,14 @@ namespace {
 
 // Optimal string alignment distance (Levenshtein with swaps of neighbours).
 std::size_t distance(std::string_view a, std::string_view b) {
-  const auto letter = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> before2, before(b.size() + 1), now(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) before[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     now[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = letter(a[i - 1]) == letter(b[j - 1]);
+      const bool same = a[i - 1] == b[j - 1];
       now[j] = std::min({before[j] + 1, now[j - 1] + 1, before[j - 1] + (same ? 0u : 1u)});
-      if (i > 1 && j > 1 && letter(a[i - 1]) == letter(b[j - 2]) &&
-          letter(a[i - 2]) == letter(b[j - 1]))
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         now[j] = std::min(now[j], before2[j - 2] + 1);
     }
     before2 = before;
@@ -34,12 +31,14 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
   constexpr std::size_t kMaxLength = 200;  // longer words are not misspellings
   if (misspelt.size() > kMaxLength) return "";
   const std::size_t n = misspelt.size();
+  const std::string word = lower_case(misspelt);
   std::string nearest;
   std::size_t min = 2 * std::max<std::size_t>(2, (n + 1) / 2);
   for (const std::string& name : names) {
     if (name.size() > kMaxLength) continue;
-    std::size_t d = 2 * distance(misspelt, name);
-    const std::size_t of_start = distance(misspelt, std::string_view(name).substr(0, n));
+    const std::string lower = lower_case(name);
+    std::size_t d = 2 * distance(word, lower);
+    const std::size_t of_start = distance(word, lower.substr(0, n));
     if (3 * of_start <= n) d = std::min(d, 2 * of_start + 1);
     if (d > min || (d == min && !nearest.empty())) continue;
     min = d;

@@ -1,5 +1,4 @@
-// Names and their misspellings, lists in one text, replacement, CSV; errors collected from several
-// calls.
+// Names and their misspellings, CSV; errors collected from several calls.
 #pragma once
 
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 
@@ -50,24 +50,6 @@ std::vector<std::string> names_of(const Items& items) {
   std::vector<std::string> names;
   for (const auto& item : items) names.emplace_back(item.name);
   return names;
-}
-
-// "a,b" split at each separator; an empty text gives one empty field.
-inline std::vector<std::string> split(const std::string& text, char separator = ',') {
-  std::vector<std::string> fields(1);
-  for (const char c : text)
-    if (c == separator)
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  return fields;
-}
-
-// With `to` in each place of `from`.
-inline std::string replace_all(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
 }
 
 std::string csv_field(const std::string& text);                // quoted if necessary; no formula

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -26,6 +25,7 @@
 #include <utility>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -91,12 +91,6 @@ void keep_trusted_readers(Assimp::Importer& importer) {
   }
 }
 
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 // assimp's PLY reader does not terminate without an end of the header.
 bool has_whole_ply_header(const fs::path& file) {
   constexpr std::size_t kMaxHeader = 1u << 16;
@@ -110,7 +104,7 @@ void check_file(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "the file does not exist", "check the path");
   if (!fs::is_regular_file(file, error)) refuse(file, "this is not a regular file", kFormats);
-  const std::string extension = lower_extension(file);
+  const std::string extension = lower_case(file.extension().string());
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
     refuse(file, "'" + extension + "' is not a supported mesh format", kFormats);
   if (fs::file_size(file, error) > kMaxBytes)
@@ -218,7 +212,7 @@ std::string read_packed(const fs::path& file) {
       file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType |
                          aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
   if (scene == nullptr) return std::string("!") + importer.GetErrorString();
-  const std::string extension = lower_extension(file);
+  const std::string extension = lower_case(file.extension().string());
   AssimpConverter converter(*scene, *folder, extension == ".gltf" || extension == ".glb");
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) converter.add(*scene->mMeshes[i]);
   return " " + pack(std::move(converter.model));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 
 #include "solver/support/atomic_file.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -75,9 +75,7 @@ void UploadFolder::remove_one(const Upload& next) {
 
 UploadedFile classify_upload(const std::string& name, const std::string& bytes) {
   std::filesystem::path path = name;
-  std::string end = path.extension().string();
-  std::ranges::transform(end, end.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string end = lower_case(path.extension().string());
   UploadedFile file{name, false, ""};
   const auto is_one_of = [&](const auto& all) { return std::ranges::find(all, end) != all.end(); };
   if (end == ".xml" || end == ".xacro") {

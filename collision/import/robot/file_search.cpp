@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "solver/support/text.h"
+
 namespace twinarm {
 namespace {
 
@@ -17,14 +19,9 @@ bool is_file(const fs::path& path) {
 // The folders of an environment variable such as PATH.
 std::vector<fs::path> folders_in(const char* variable) {
   const char* value = std::getenv(variable);
-  const std::string text = value ? value : "";
-  std::vector<fs::path> folders;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(':', begin), text.size());
-    if (end > begin) folders.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return folders;
+  std::vector<std::string> folders = split(value ? value : "", ':');
+  std::erase(folders, "");
+  return {folders.begin(), folders.end()};
 }
 
 // `rest` in the package below a folder of packages, with at most one level of repositories between.

@@ -2,13 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "collision/import/robot/robot_check.h"
 #include "solver/support/number_text.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 
@@ -116,9 +116,7 @@ std::optional<double> UrdfSource::number(const XmlElement& element, const char* 
 std::optional<double> UrdfSource::bound(const XmlElement& element, const char* attribute,
                                         const std::string& where, double fallback) {
   const char* value = element.value(attribute);
-  std::string text = value ? value : "";
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string text = lower_case(value ? value : "");
   if (text == "inf" || text == "+inf") return std::numeric_limits<double>::infinity();
   if (text == "-inf") return -std::numeric_limits<double>::infinity();
   return number(element, attribute, where, fallback);

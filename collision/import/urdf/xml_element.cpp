@@ -3,12 +3,12 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include "collision/sandbox/bounded_file.h"
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -19,9 +19,7 @@ std::string xml_error_text(const tinyxml2::XMLDocument& document) {
   for (const char* prefix : {"XML_ERROR_", "XML_"})
     if (text.starts_with(prefix)) text.erase(0, std::string(prefix).size());
   std::replace(text.begin(), text.end(), '_', ' ');
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  return lower_case(text);
 }
 
 // Recursion is bounded: tinyxml2 refuses deeper elements.
