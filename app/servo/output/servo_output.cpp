@@ -210,9 +210,7 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) 
       "unset multiplot\n";
   const std::string title =
       fmt::format("Timing of {} ticks of {} s", run.cpu.count(), summary.step);
-  write_whole_file(file, file.extension() == ".png"
-                             ? gnuplot.png("timing", 1100, 420, script)
-                             : gnuplot.svg("timing", title, 1000, 380, script));
+  write_whole_file(file, gnuplot.svg("timing", title, 1000, 380, script));
 }
 
 }  // namespace twinarm

@@ -35,7 +35,7 @@ struct LiveSummary {
 std::string live_table(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
 // Histograms of wake-up latency and processor time per tick, with those of the empty loop if any.
-// SVG or PNG by the name. Throws InputError: no gnuplot.
+// An SVG. Throws InputError: no gnuplot.
 void draw_timing(const LiveSummary& summary, const std::filesystem::path& file);
 
 // Log of a live run (coupling/device/device_motion.h), written while it runs.
