@@ -7,6 +7,7 @@
 #include "app/render/list/image.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "collision/mesh_files/model_file.h"
 
@@ -23,21 +24,15 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
 
 // Files in the assets are trusted.
 bool is_asset(const std::filesystem::path& file) {
-  try {
-    return may_name(std::vector{find_assets()}, file);
-  } catch (const InputError&) {  // there are no assets
-    return false;
-  }
+  DiagnosticList no_assets;
+  return attempt(no_assets, [&] { return may_name(std::vector{find_assets()}, file); })
+      .value_or(false);
 }
 
 template <class Decode>
 bool is_decodable(const Decode& decode, const std::filesystem::path& file) {
-  try {
-    decode(file);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
+  DiagnosticList ignored;
+  return attempt(ignored, [&] { decode(file); }).has_value();
 }
 
 // A scene may name any file of this machine as a picture or mesh: the contents are recorded only if

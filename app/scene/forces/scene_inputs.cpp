@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/support/text.h"
 #include "coupling/device/device_motion.h"
 #include "coupling/target/operator_motion.h"
 #include "coupling/target/synthetic_operator.h"
@@ -54,11 +55,8 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
     case CouplingTarget::Kind::paper:
       return std::make_unique<AutomaticMotion>(OperatorMapping{});
     case CouplingTarget::Kind::trace:
-      try {
-        return read_motion_file(coupling.trace);
-      } catch (const InputError& error) {
-        faults.add(error.faults());
-      }
+      if (auto motion = attempt(faults, [&] { return read_motion_file(coupling.trace); }))
+        return std::move(*motion);
       break;
     case CouplingTarget::Kind::synthetic:
       return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration, coupling.ranges);

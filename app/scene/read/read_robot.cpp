@@ -88,14 +88,10 @@ void SceneReader::read_robot(const Value& value) {
       RobotFileOptions options;
       options.roots = roots;
       if (!robot.collide) options.geometry = RobotFileOptions::Geometry::optional;
-      try {
-        robot.description = read_robot_file(*urdf, options);
-        readable = true;
-        for (const Diagnostic& warning : robot.description.warnings)
-          scene.warnings.push_back(to_string(warning));
-      } catch (const InputError& error) {
-        faults.add(error.faults());
-      }
+      const auto read = [&] { robot.description = read_robot_file(*urdf, options); };
+      readable = attempt(faults, read).has_value();
+      for (const Diagnostic& warning : robot.description.warnings)
+        scene.warnings.push_back(to_string(warning));
     }
   const bool limits = table.flag("limits").value_or(true);
   if (readable) {

@@ -130,10 +130,8 @@ std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
   namespace fs = std::filesystem;
   std::error_code ignored;
   std::vector<fs::path> places{path.parent_path() / name};  // an absolute name is kept
-  try {
-    places.push_back(find_assets() / name);
-  } catch (const InputError&) {  // no assets
-  }
+  DiagnosticList no_assets;
+  attempt(no_assets, [&] { places.push_back(find_assets() / name); });
   for (const fs::path& place : places)
     if (may_name(roots, place) && fs::is_regular_file(place, ignored))
       return fs::absolute(place).lexically_normal();
