@@ -9,11 +9,13 @@ namespace twinarm::fuzz {
 
 using Bytes = std::string_view;
 
+void command_line(Bytes bytes);
 void gestures(Bytes bytes);
 void hand_file(Bytes bytes);
 void http(Bytes bytes);
 void image(Bytes bytes);
 void lab_message(Bytes bytes);
+void lab_session(Bytes bytes);
 void mesh_file(Bytes bytes);
 void mesh_shape(Bytes bytes);
 void packed_model(Bytes bytes);
@@ -30,11 +32,13 @@ struct Target {
   const char* name;
   void (*run)(Bytes bytes);
 };
-inline const std::vector<Target> kTargets{{"gestures", gestures},
+inline const std::vector<Target> kTargets{{"command_line", command_line},
+                                          {"gestures", gestures},
                                           {"hand_file", hand_file},
                                           {"http", http},
                                           {"image", image},
                                           {"lab_message", lab_message},
+                                          {"lab_session", lab_session},
                                           {"mesh_file", mesh_file},
                                           {"mesh_shape", mesh_shape},
                                           {"packed_model", packed_model},
