@@ -41,8 +41,8 @@ std::string to_string(const Diagnostic& fault) {
   if (!fault.where.empty()) text += fault.where + ": ";
   text += fault.problem;
   if (!fault.fix.empty()) text += "; " + fault.fix;
-  const auto is_control = [](unsigned char c) { return (c < ' ' && c != '\n') || c == 0x7f; };
-  std::ranges::replace_if(text, is_control, '?');  // NUL would end the line, ESC leads a terminal
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  std::ranges::replace_if(text, is_control, '?');  // one line; NUL ends it, ESC leads a terminal
   return text;
 }
 
