@@ -121,7 +121,8 @@ void command_line(Bytes bytes) {
   if (code == kBadInput)
     check_errors(errors, has("--json") ? &said : nullptr);
   else if (has("--json") && code != kInterrupted && !said.empty())  // empty: parsed only
-    require(is_one_json(said) || has("help") || has("--help") || has("-h") || has("--version"),
+    require(is_one_json(said) || has("help") || has("--help") || has("--version") ||
+                std::ranges::any_of(words, [](const auto& word) { return word.starts_with("-h"); }),
             "stdout is not one JSON object");
 }
 
