@@ -20,8 +20,8 @@ void Clients::closed(ClientId client) {
   const std::lock_guard lock(mutex_);
   clients_.erase(client);
   std::erase(waiting_, client);
-  if (controller_ != client) return;
-  controller_ = 0;
+  if (controller_ == client) controller_ = 0;
+  if (controller_ != 0) return;
   if (!waiting_.empty()) {
     controller_ = waiting_.front();
     waiting_.erase(waiting_.begin());
