@@ -49,23 +49,20 @@ int ContactBodies::add(const ContactGeometry& geometry) {
         "dissipation is " + short_number_text(s.dissipation) + " s/m, must be a finite number >= 0",
         "give 0 s/m or more");
   faults.check();
-  const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body == 0});
+  const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body});
   geometries_.push_back(geometry);
   const bool bounded = !std::holds_alternative<HalfSpace>(geometry.shape);
   radius_.push_back(bounded ? geometry.X_LG.p.norm() + half_diagonal(geometry.shape) : 0);
-  for (int other = 0; other < id; ++other)
-    if (this->geometry(other).body == geometry.body) world_.disable_pair(other, id);
   return id;
 }
 
 ContactMaterialPair ContactBodies::material_of(int id_a, int id_b) const {
   const ContactSurface &a = geometry(id_a).surface, &b = geometry(id_b).surface;
-  ContactMaterialPair material{
+  const ContactMaterialPair material{
       std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
       in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
-  for (const PairOverride& pair : overrides_)
-    if (pair.a == id_a && pair.b == id_b) material = pair.material;
-  return material;
+  const auto given = overrides_.find({id_a, id_b});
+  return given == overrides_.end() ? material : given->second;
 }
 
 Vector3 ContactBodies::application_point(const Contact& c, int body) const {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "collision/contact/contact_point.h"
@@ -19,7 +21,7 @@ class ContactBodies {
   int add(const ContactGeometry& geometry);
   // Replaces the parameters combined from the two surfaces; the last call for a pair counts.
   void set_pair(int a, int b, const ContactMaterialPair& material) {
-    overrides_.push_back({std::min(a, b), std::max(a, b), material});
+    overrides_.insert_or_assign(std::minmax(a, b), material);
   }
   ContactMaterialPair material_of(int a, int b) const;
 
@@ -58,10 +60,6 @@ class ContactBodies {
   bool locates_events = false;  // set by event-driven steps
 
  private:
-  struct PairOverride {
-    int a, b;
-    ContactMaterialPair material;
-  };
   bool is_immovable(int body) const { return is_immovable_[static_cast<std::size_t>(body)]; }
 
   const Model<double>* model_;
@@ -69,7 +67,7 @@ class ContactBodies {
   CollisionWorld world_;
   std::vector<ContactGeometry> geometries_;
   std::vector<double> radius_;  // by geometry: bounding sphere about its link's origin [m]
-  std::vector<PairOverride> overrides_;
+  std::map<std::pair<int, int>, ContactMaterialPair> overrides_;
 };
 
 }  // namespace twinarm

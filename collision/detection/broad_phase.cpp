@@ -69,7 +69,9 @@ void BroadPhase::overlaps(std::span<const Aabb> boxes, Pairs& pairs) {
   }
   if (impl_->is_new) {  // builds the tree from boxes in their actual positions
     impl_->manager.clear();
-    for (TreeObject& object : impl_->objects) impl_->manager.registerObject(object.object.get());
+    std::vector<fcl::CollisionObjectd*> all;
+    for (TreeObject& object : impl_->objects) all.push_back(object.object.get());
+    impl_->manager.registerObjects(all);  // O(n log n), unlike one by one
     impl_->manager.setup();
     impl_->is_new = false;
   } else {

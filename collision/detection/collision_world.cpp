@@ -57,7 +57,8 @@ int CollisionWorld::add(Geometry geometry) {
   const int id = size();
   geometries_.push_back(std::move(geometry));
   try {
-    for (int other = 0; other < id; ++other) check_pair(other, id);
+    if (!is_supported(geometries_.back().shape, geometries_.back().shape))
+      for (int other = 0; other < id; ++other) check_pair(other, id);
     solids_.emplace_back(geometries_.back().shape);
   } catch (...) {
     geometries_.pop_back();
@@ -82,13 +83,6 @@ void CollisionWorld::check_pair(int a, int b) const {
         "contact.pair"}});
 }
 
-void CollisionWorld::disable_pair(int a, int b) {
-  assert(a >= 0 && b >= 0 && a < size() && b < size());
-  const std::pair pair(std::min(a, b), std::max(a, b));
-  const auto at = std::lower_bound(disabled_pairs_.begin(), disabled_pairs_.end(), pair);
-  if (at == disabled_pairs_.end() || *at != pair) disabled_pairs_.insert(at, pair);
-}
-
 void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
   DiagnosticList faults;
   for (int group : {group_a, group_b}) check_group("group filter", group, faults);
@@ -108,9 +102,9 @@ void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
 
 bool CollisionWorld::may_collide(int a, int b) const {
   const bool groups = (mask_[geometry(a).group] >> geometry(b).group) & 1u;
-  return groups && a != b && !(geometry(a).is_fixed && geometry(b).is_fixed) &&
-         !std::binary_search(disabled_pairs_.begin(), disabled_pairs_.end(),
-                             std::pair(std::min(a, b), std::max(a, b)));
+  const bool one_body = geometry(a).body >= 0 && geometry(a).body == geometry(b).body;
+  return groups && a != b && !one_body &&
+         !(is_excluded_ && is_excluded_(std::min(a, b), std::max(a, b)));
 }
 
 // Fills pairs_ with the collision pairs, ascending.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,8 +29,8 @@ namespace twinarm {
 struct Geometry {
   std::string name;
   Shape shape;
-  int group = 0;          // 0 to 31
-  bool is_fixed = false;  // two fixed geometries do not collide
+  int group = 0;  // 0 to 31
+  int body = -1;  // geometries of one body do not collide; -1: a body of its own
 };
 
 struct Contact {
@@ -51,8 +52,10 @@ class CollisionWorld {
   const Geometry& geometry(int id) const { return geometries_[static_cast<std::size_t>(id)]; }
   int size() const { return static_cast<int>(geometries_.size()); }
 
-  // Excludes a collision pair, e.g. neighbours in a mechanism.
-  void disable_pair(int a, int b);
+  // Excludes collision pairs a < b, e.g. neighbours in a mechanism.
+  void set_pair_filter(std::function<bool(int a, int b)> is_excluded) {
+    is_excluded_ = std::move(is_excluded);
+  }
   // Whether geometries of two groups (or of one) collide; default: all do.
   void set_group_filter(int group_a, int group_b, bool collide);
   bool may_collide(int a, int b) const;
@@ -77,9 +80,9 @@ class CollisionWorld {
 
   std::vector<Geometry> geometries_;
   std::vector<PreparedShape> solids_;
-  std::array<std::uint32_t, kGroupCount> mask_;      // bit j of mask i: groups i and j collide
-  std::vector<std::pair<int, int>> disabled_pairs_;  // sorted
-  std::vector<double> margins_;                      // of detect() with one margin
+  std::array<std::uint32_t, kGroupCount> mask_;  // bit j of mask i: groups i and j collide
+  std::function<bool(int, int)> is_excluded_;
+  std::vector<double> margins_;  // of detect() with one margin
   BroadPhase broad_phase_;
   NarrowPhase narrow_phase_;
   MeshContact mesh_contact_;

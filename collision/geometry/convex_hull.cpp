@@ -17,6 +17,8 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "solver/support/diagnostics.h"
@@ -96,27 +98,74 @@ Loops run_qhull(std::span<const Vector3> points, double tolerance) {
   return loops;
 }
 
+// Points in a balanced tree of boxes, node k above nodes 2 k + 1 and 2 k + 2.
+class PointTree {
+ public:
+  explicit PointTree(std::span<const Vector3> points) : points_(points.begin(), points.end()) {
+    build(0, points_);
+    const Aabb& all = boxes_.front();
+    rounding_ = 1e-12 * (all.min().cwiseAbs() + all.max().cwiseAbs()).sum();
+  }
+  // The maximum of n . p over all points and `height`, bit-identical to a plain loop.
+  double highest(const Vector3& n, double height) const {
+    raise(0, points_, n, height);
+    return height;
+  }
+
+ private:
+  static constexpr std::size_t kLeafSize = 8;
+
+  void build(std::size_t node, std::span<Vector3> points) {
+    if (boxes_.size() <= node) boxes_.resize(node + 1);
+    const Aabb box = boxes_[node] = bounding_box(points);
+    if (points.size() <= kLeafSize) return;
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const std::size_t half = points.size() / 2;
+    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half),
+                     points.end(),
+                     [&](const Vector3& a, const Vector3& b) { return a[axis] < b[axis]; });
+    build(2 * node + 1, points.first(half));
+    build(2 * node + 2, points.subspan(half));
+  }
+  void raise(std::size_t node, std::span<const Vector3> points, const Vector3& n,
+             double& height) const {
+    const Aabb& box = boxes_[node];
+    const double bound = n.dot(box.center()) + 0.5 * n.cwiseAbs().dot(box.sizes());
+    if (bound + rounding_ < height) return;
+    if (points.size() <= kLeafSize) {
+      for (const Vector3& p : points) height = std::max(height, n.dot(p));
+      return;
+    }
+    const std::size_t half = points.size() / 2;
+    raise(2 * node + 1, points.first(half), n, height);
+    raise(2 * node + 2, points.subspan(half), n, height);
+  }
+
+  std::vector<Vector3> points_;
+  std::vector<Aabb> boxes_;
+  double rounding_ = 0;  // of bounds [m]
+};
+
+// Fills `normals`, `offsets` and `triangles` from `vertices` and `faces`; no point is outside a
+// plane.
+void complete_faces(ConvexHull& hull, std::span<const Vector3> points) {
+  const PointTree tree(points);
+  for (const std::vector<int>& loop : hull.faces) {
+    const Vector3 n = area_vector(hull, loop).normalized();
+    hull.normals.push_back(n);
+    hull.offsets.push_back(tree.highest(n, n.dot(hull.vertices[loop[0]])));
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+      hull.triangles.push_back({loop[0], loop[i], loop[i + 1]});
+  }
+}
+
 }  // namespace
 
 std::string ConvexHull::fault() const {
   if (vertices.size() >= 4 && faces.size() >= 4 && normals.size() == faces.size()) return "";
   return "hull has " + std::to_string(vertices.size()) +
          " vertices and no complete faces, must come from convex_hull()";
-}
-
-void complete_faces(ConvexHull& hull) {
-  hull.normals.clear();
-  hull.offsets.clear();
-  hull.triangles.clear();
-  for (const std::vector<int>& loop : hull.faces) {
-    const Vector3 n = area_vector(hull, loop).normalized();
-    double offset = n.dot(hull.vertices[loop[0]]);
-    for (const Vector3& v : hull.vertices) offset = std::max(offset, n.dot(v));
-    hull.normals.push_back(n);
-    hull.offsets.push_back(offset);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-      hull.triangles.push_back({loop[0], loop[i], loop[i + 1]});
-  }
 }
 
 ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
@@ -130,13 +179,11 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   for (Vector3& p : scaled) p = (p - points[0]) / extent;
   Loops loops = run_qhull(scaled, flatness);
 
-  // Each plane is compared with each point.
-  constexpr double kMaxPlaneChecks = 4e9;
-  if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMaxPlaneChecks)
+  constexpr std::size_t kMaxFaces = 100000;
+  if (loops.size() > kMaxFaces)
     throw InputError(
         {{"", 0, "convex hull",
-          "there are " + std::to_string(points.size()) + " points, and their hull has " +
-              std::to_string(loops.size()) + " faces: too many",
+          "it has " + std::to_string(loops.size()) + " faces, must be at most 100,000",
           "simplify the mesh: some hundred faces are enough for collision", "hull.faces"}});
 
   // Vertices are numbered in the order of the input.
@@ -154,10 +201,7 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
     hull.faces.push_back(std::move(loop));
   }
   std::sort(hull.faces.begin(), hull.faces.end());
-  complete_faces(hull);
-  for (std::size_t f = 0; f < hull.faces.size(); ++f)
-    for (const Vector3& p : points)
-      hull.offsets[f] = std::max(hull.offsets[f], hull.normals[f].dot(p));
+  complete_faces(hull, points);
   return hull;
 }
 
@@ -166,15 +210,20 @@ namespace {
 std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
   std::vector<Polytope::Slab> slabs;
   std::vector<bool> is_done(hull.normals.size(), false);
+  const auto key = [](const Vector3& n, std::size_t face) {
+    return std::tuple(n.x(), n.y(), n.z(), face);
+  };
+  std::set<std::tuple<double, double, double, std::size_t>> faces;
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) faces.insert(key(hull.normals[f], f));
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
     if (is_done[f]) continue;
     const Vector3& n = hull.normals[f];
     slabs.push_back({n, 0, hull.offsets[f], false});
-    for (std::size_t g = f + 1; g < hull.normals.size() && !slabs.back().is_double; ++g) {
-      if (hull.normals[g] != -n) continue;
-      slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
-      is_done[g] = true;
-    }
+    const auto found = faces.lower_bound(key(-n, f + 1));
+    const std::size_t g = found == faces.end() ? f : std::get<3>(*found);
+    if (g == f || hull.normals[g] != -n) continue;
+    slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
+    is_done[g] = true;
   }
   return slabs;
 }
@@ -219,7 +268,7 @@ ConvexHull box_hull(const Vector3& size) {
     hull.vertices.push_back(0.5 * sides.cwiseProduct(size));
   }
   hull.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  complete_faces(hull);
+  complete_faces(hull, hull.vertices);
   return hull;
 }
 

@@ -38,9 +38,6 @@ struct ConvexHull {
 // single-precision mesh files.
 ConvexHull convex_hull(std::span<const Vector3> points, double flatness = 1e-7);
 
-// Fills `normals`, `offsets` and `triangles` from `vertices` and `faces`.
-void complete_faces(ConvexHull& hull);
-
 // Shapes as polytopes with a radius: sphere = point + r, capsule = segment + r, box and hull =
 // polyhedron + 0, so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders and
 // ellipsoids: BoundaryFeatures.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_map>
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/spatial/rotation_to_axis.h"
@@ -83,6 +85,15 @@ std::vector<double> articulated_inertia_by_dof(const Model<double>& model) {
     }
   }
   return largest;
+}
+
+// Bodies other than the base, ascending by name.
+std::vector<int> order_of(const std::vector<std::string>& names) {
+  std::vector<int> order(names.size() - 1);
+  std::iota(order.begin(), order.end(), 1);
+  std::ranges::sort(
+      order, {}, [&](int i) -> const std::string& { return names[static_cast<std::size_t>(i)]; });
+  return order;
 }
 
 // D must be positive. A zero D makes the numbers of all ancestors invalid: errors are reported from
@@ -196,6 +207,8 @@ Model<double> ModelBuilder::build(bool kinematic) const {
   model.last_child.resize(model.parent.size());
   for (int i = 1; i < model.body_count(); ++i)
     model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
+  model.by_body_name = order_of(model.body_name);
+  model.by_joint_name = order_of(model.joint_name);
   add_mimics_to(model, faults);
   DiagnosticList ignored;
   Model<double> repaired = check_articulated_inertia(model, kinematic ? ignored : faults);
@@ -204,12 +217,15 @@ Model<double> ModelBuilder::build(bool kinematic) const {
 }
 
 void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) const {
+  std::unordered_map<std::string, const MimicByName*> by_follower;
+  for (const MimicByName& mimic : mimics_) by_follower.emplace(mimic.follower, &mimic);
   const auto leader_of = [&](MimicByName& mimic) {
-    const auto next = std::ranges::find(mimics_, mimic.leader, &MimicByName::follower);
-    if (next == mimics_.end()) return false;
-    mimic.offset += mimic.ratio * next->offset;
-    mimic.ratio *= next->ratio;
-    mimic.leader = next->leader;
+    const auto found = by_follower.find(mimic.leader);
+    if (found == by_follower.end()) return false;
+    const MimicByName& next = *found->second;
+    mimic.offset += mimic.ratio * next.offset;
+    mimic.ratio *= next.ratio;
+    mimic.leader = next.leader;
     return true;
   };
   if (mimics_.size() > kMaxMimics)

@@ -23,6 +23,8 @@ Model<T> convert(const Model<double>& m) {
   Model<T> out;
   out.body_name = m.body_name;
   out.joint_name = m.joint_name;
+  out.by_body_name = m.by_body_name;
+  out.by_joint_name = m.by_joint_name;
   out.parent = m.parent;
   out.last_child = m.last_child;
   out.joint = m.joint;

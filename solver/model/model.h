@@ -8,6 +8,7 @@
 // R_BL[i] maps coordinates in link axes to coordinates in body axes.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -43,10 +44,21 @@ template <template <class> class T, class S>
 using Constants =
     std::conditional_t<std::is_same_v<S, Constant<S>>, std::vector<T<S>>, Broadcast<T, S>>;
 
+// The index in `order`, ascending by name, of that name; -1: none.
+inline int find_name(const std::string& name, const std::vector<std::string>& names,
+                     const std::vector<int>& order) {
+  const auto name_of = [&](int i) -> const std::string& {
+    return names[static_cast<std::size_t>(i)];
+  };
+  const auto found = std::ranges::lower_bound(order, name, {}, name_of);
+  return found != order.end() && name_of(*found) == name ? *found : -1;
+}
+
 template <class S>
 struct Model {
-  std::vector<std::string> body_name;   // link name in the user's file
-  std::vector<std::string> joint_name;  // joint of the body; empty for the base
+  std::vector<std::string> body_name;            // link name in the user's file
+  std::vector<std::string> joint_name;           // joint of the body; empty for the base
+  std::vector<int> by_body_name, by_joint_name;  // bodies without the base, ascending by name
   std::vector<int> parent;
   std::vector<int> last_child;  // child of highest number, 0 for a leaf; not in RBDA: IA_p starts
                                 // from its last child's contribution without a copy
@@ -67,8 +79,14 @@ struct Model {
 
   std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
   int body_count() const { return static_cast<int>(parent.size()); }  // including the base
-  int find_body(const std::string& name) const;                       // -1: not found
-  int find_joint(const std::string& name) const;  // child body of the joint; -1: not found
+  // Index of the body, and of the child body of the joint; -1: not found. O(log n).
+  int find_body(const std::string& name) const {
+    const int found = find_name(name, body_name, by_body_name);  // links named "world" come first
+    return found < 0 && !body_name.empty() && name == body_name[0] ? 0 : found;
+  }
+  int find_joint(const std::string& name) const {
+    return find_name(name, joint_name, by_joint_name);
+  }
 };
 
 // Calls f with the joint struct of body i.
@@ -85,19 +103,6 @@ void visit_joint(const M& model, const std::vector<S>& more_armature, std::size_
       !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
     return f(RevoluteJoint<S>{}, RevoluteSparsity{});
   visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
-}
-
-template <class S>
-int Model<S>::find_body(const std::string& name) const {
-  for (int i = 1; i < body_count(); ++i)
-    if (body_name[static_cast<std::size_t>(i)] == name) return i;
-  return !body_name.empty() && name == body_name[0] ? 0 : -1;  // links named "world" come first
-}
-template <class S>
-int Model<S>::find_joint(const std::string& name) const {
-  for (int i = 1; i < body_count(); ++i)
-    if (joint_name[static_cast<std::size_t>(i)] == name) return i;
-  return -1;
 }
 
 // Joint positions q and velocities qd; those of joint i begin at Model::iq[i] and iv[i].

@@ -81,7 +81,8 @@ class Episode {
                                    g.rolling_friction, g.stiffness,   g.dissipation};
       contacts_.bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
     }
-    for (const auto& [a, b] : scene_.apart) contacts_.bodies().world().disable_pair(a, b);
+    contacts_.bodies().world().set_pair_filter(
+        [this](int a, int b) { return scene_.is_apart(a, b); });
     sim_.add(contacts_);
   }
   void add_limits() {

@@ -59,7 +59,8 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
   for (const SceneConstraint& c : scene.constraints)
     loops.push_back({c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset});
   if (!loops.empty()) simulation.set_loops(std::move(loops));
-  if (scene.may_touch()) {
+  const bool may_touch = scene.may_touch();
+  if (may_touch) {
     contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
                                        ? ContactResponse::compliant
                                        : ContactResponse::rigid);
@@ -67,7 +68,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     find_deepest_contact(simulation);
     simulation.add(*contacts_);
   }
-  const bool flies = !scene.may_touch() && !locates_events(scene) &&
+  const bool flies = !may_touch && !locates_events(scene) &&
                      steps_for_flight(scene, simulation.integrator());
   if (flies || limits_act(scene, simulation.integrator())) {
     limits_.emplace(scene.model);  // for flight maybe without a limit
@@ -93,14 +94,14 @@ void SceneContacts::add_geometries() {
                                  .dissipation = g.dissipation};
     contacts_->bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
   }
-  for (const auto& [a, b] : scene_.apart) contacts_->bodies().world().disable_pair(a, b);
-  for (const PairOverride& rule : scene_.pairs)
-    for (const int a : rule.a)
-      for (const int b : rule.b) {
-        const Surface pair = scene_.surface_of_pair(a, b);
-        contacts_->bodies().set_pair(
-            a, b, {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
-      }
+  contacts_->bodies().world().set_pair_filter(
+      [&scene = scene_](int a, int b) { return scene.is_apart(a, b); });
+  for (const auto& [ids, unused] : scene_.pairs) {
+    const Surface pair = scene_.surface_of_pair(ids.first, ids.second);
+    contacts_->bodies().set_pair(
+        ids.first, ids.second,
+        {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
+  }
 }
 
 void SceneContacts::add_limits() {

@@ -1,7 +1,7 @@
 // Geometries, their surfaces, and the pairs without contacts.
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "app/scene/model/scene_builder.h"
@@ -12,16 +12,13 @@
 namespace twinarm {
 namespace {
 
-// The nearest ancestor (or the body itself) whose joint is not fixed, or the world: the root of the
-// rigid body that it belongs to.
-int rigid_root_of(const Model<double>& model, int body) {
-  while (body > 0 && model.joint[static_cast<std::size_t>(body)] == JointType::fixed)
-    body = model.parent[static_cast<std::size_t>(body)];
-  return body;
-}
-
 bool is_moved_by_forces(const Model<double>& model, int root) {
   return root > 0 && model.joint[static_cast<std::size_t>(root)] != JointType::prescribed;
+}
+
+template <class T>
+void replace_by(std::optional<T>& value, const std::optional<T>& given) {
+  if (given) value = given;
 }
 
 class GeometryBuilder {
@@ -33,18 +30,17 @@ class GeometryBuilder {
     for (std::size_t b = 0; b < description().bodies.size(); ++b) {
       const BodyDescription& body = description().bodies[b];
       const int index = body_of(scene_, {static_cast<int>(b), -1, ""});
-      add({body.surface, body.name, index, index == 0 ? body.X_WB : Pose{}, body.shape, body.group},
+      add({body.surface, body.name, index, index == 0 ? body.X_WB : Pose{}, body.shape, body.group,
+           -1},
           {static_cast<int>(b), -1, ""});
     }
-    constexpr std::size_t kMaxGeometries = 10000;  // all pairs are looked at
+    constexpr std::size_t kMaxGeometries = 10000;
     if (scene_.geometries.size() > kMaxGeometries)
       throw InputError(
           {{description().file.string(), 0, "", "there are more than 10,000 shapes that may touch",
             "give fewer bodies, or robots with collide = false", "scene.too-many"}});
-    find_pairs_apart();
-    for (const PairDescription& pair : description().pairs)
-      scene_.pairs.push_back({named(pair.a), named(pair.b), pair.friction, pair.restitution,
-                              pair.stiffness, pair.dissipation});
+    find_roots();
+    for (const PairDescription& pair : description().pairs) add_pair(pair);
   }
 
  private:
@@ -58,7 +54,8 @@ class GeometryBuilder {
         const SceneReference owner{-1, static_cast<int>(r), link.name};
         SceneGeometry geometry{robot.surface,          name_in_scene(description(), r, link.name),
                                body_of(scene_, owner), part.X_LG(),
-                               part.geometry,          0};
+                               part.geometry,          0,
+                               static_cast<int>(r)};
         add(std::move(geometry), owner);
       }
   }
@@ -78,61 +75,39 @@ class GeometryBuilder {
     return found;
   }
 
-  // The last matching [[pair]] decides; then the default rules.
-  bool is_apart(int a, int b) const {
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  void find_roots() {
     const Model<double>& model = scene_.model;
-    const int root_a = roots_[i], root_b = roots_[j];
-    if (root_a == root_b) return true;
-    if (!is_moved_by_forces(model, root_a) && !is_moved_by_forces(model, root_b)) return true;
-    if (rules_[i].size() > j && rules_[i][j] != 0) return rules_[i][j] < 0;
-    const int group = scene_.geometries[i].group;
-    if (group != 0 && group == scene_.geometries[j].group) return true;
-    if (owners_[i].robot >= 0 && owners_[i].robot == owners_[j].robot &&
-        (parent_of(root_a) == root_b || parent_of(root_b) == root_a))
-      return true;
-    return joined_.contains(std::minmax(root_a, root_b));
-  }
-  int parent_of(int root) const {
-    if (root == 0) return 0;
-    return rigid_root_of(scene_.model, scene_.model.parent[static_cast<std::size_t>(root)]);
-  }
-
-  void find_pairs_apart() {
-    const std::size_t n = scene_.geometries.size();
-    for (const SceneGeometry& geometry : scene_.geometries)
-      roots_.push_back(rigid_root_of(scene_.model, geometry.body));
+    std::vector<int>& roots = scene_.roots;
+    for (int i = 0; i < model.body_count(); ++i) {
+      const auto body = static_cast<std::size_t>(i);
+      const bool is_fixed = i > 0 && model.joint[body] == JointType::fixed;
+      roots.push_back(is_fixed ? roots[static_cast<std::size_t>(model.parent[body])] : i);
+    }
     for (const SceneConstraint& c : scene_.constraints) {
       using Type = SceneConstraint::Type;
       if (c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge)
-        joined_.insert(
-            std::minmax(rigid_root_of(scene_.model, c.a), rigid_root_of(scene_.model, c.b)));
+        scene_.joined.insert(std::minmax(roots[static_cast<std::size_t>(c.a)],
+                                         roots[static_cast<std::size_t>(c.b)]));
     }
-    rules_.assign(n, {});
-    for (const PairDescription& pair : description().pairs) {
-      if (!pair.collide) continue;
-      for (const int a : named(pair.a))
-        for (const int b : named(pair.b)) {
-          auto& row = rules_[static_cast<std::size_t>(std::min(a, b))];
-          row.resize(n, 0);
-          row[static_cast<std::size_t>(std::max(a, b))] = *pair.collide ? 1 : -1;
-        }
-    }
-    for (int a = 0; a < static_cast<int>(n); ++a)
-      for (int b = a + 1; b < static_cast<int>(n); ++b)
-        if (is_apart(a, b)) scene_.apart.emplace_back(a, b);
+  }
+
+  // Later pairs replace what earlier ones give.
+  void add_pair(const PairDescription& given) {
+    const std::vector<int> all_a = named(given.a), all_b = named(given.b);
+    for (const int a : all_a)
+      for (const int b : all_b) {
+        PairOverride& pair = scene_.pairs[std::minmax(a, b)];
+        replace_by(pair.friction, given.friction);
+        replace_by(pair.restitution, given.restitution);
+        replace_by(pair.stiffness, given.stiffness);
+        replace_by(pair.dissipation, given.dissipation);
+        replace_by(pair.collide, given.collide);
+      }
   }
 
   SceneModel& scene_;
-  std::vector<SceneReference> owners_;           // by geometry
-  std::vector<int> roots_;                       // rigid_root_of its body
-  std::set<std::pair<int, int>> joined_;         // roots joined by constraints, ascending
-  std::vector<std::vector<signed char>> rules_;  // [a][b], a < b: 1 contacts, -1 none, 0 default
+  std::vector<SceneReference> owners_;  // by geometry
 };
-
-bool contains(const std::vector<int>& sorted, int value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
-}
 
 }  // namespace
 
@@ -140,9 +115,35 @@ void build_geometries(SceneModel& scene) {
   GeometryBuilder(scene).build();
 }
 
+bool SceneModel::is_apart(int a, int b) const {
+  const SceneGeometry &s = geometries[static_cast<std::size_t>(a)],
+                      &t = geometries[static_cast<std::size_t>(b)];
+  const auto root_of = [&](int body) { return roots[static_cast<std::size_t>(body)]; };
+  const auto parent_of = [&](int root) {
+    return root == 0 ? 0 : root_of(model.parent[static_cast<std::size_t>(root)]);
+  };
+  const int root_a = root_of(s.body), root_b = root_of(t.body);
+  if (root_a == root_b) return true;
+  if (!is_moved_by_forces(model, root_a) && !is_moved_by_forces(model, root_b)) return true;
+  const auto rule = pairs.find(std::minmax(a, b));
+  if (rule != pairs.end() && rule->second.collide) return !*rule->second.collide;
+  if (s.group != 0 && s.group == t.group) return true;
+  if (s.robot >= 0 && s.robot == t.robot &&
+      (parent_of(root_a) == root_b || parent_of(root_b) == root_a))
+    return true;
+  return joined.contains(std::minmax(root_a, root_b));
+}
+
 bool SceneModel::may_touch() const {
-  const std::size_t n = geometries.size();
-  return apart.size() < n * (n - (n > 0 ? 1 : 0)) / 2;
+  const int n = static_cast<int>(geometries.size());
+  const auto moves = [&](int g) {
+    const int body = geometries[static_cast<std::size_t>(g)].body;
+    return is_moved_by_forces(model, roots[static_cast<std::size_t>(body)]);
+  };
+  for (int a = 0; a < n; ++a)
+    for (int b = moves(a) ? 0 : n; b < n; ++b)
+      if ((b > a || !moves(b)) && !is_apart(a, b)) return true;
+  return false;
 }
 
 Surface SceneModel::surface_of_pair(int a, int b) const {
@@ -155,15 +156,12 @@ Surface SceneModel::surface_of_pair(int a, int b) const {
                std::max(s.rolling_friction, t.rolling_friction),
                soft.stiffness,
                soft.dissipation};
-  for (const PairOverride& rule : pairs) {
-    if (!(contains(rule.a, a) && contains(rule.b, b)) &&
-        !(contains(rule.a, b) && contains(rule.b, a)))
-      continue;
-    pair.friction = rule.friction.value_or(pair.friction);
-    pair.restitution = rule.restitution.value_or(pair.restitution);
-    pair.stiffness = rule.stiffness.value_or(pair.stiffness);
-    pair.dissipation = rule.dissipation.value_or(pair.dissipation);
-  }
+  const auto rule = pairs.find(std::minmax(a, b));
+  if (rule == pairs.end()) return pair;
+  pair.friction = rule->second.friction.value_or(pair.friction);
+  pair.restitution = rule->second.restitution.value_or(pair.restitution);
+  pair.stiffness = rule->second.stiffness.value_or(pair.stiffness);
+  pair.dissipation = rule->second.dissipation.value_or(pair.dissipation);
   return pair;
 }
 

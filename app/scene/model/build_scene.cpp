@@ -239,27 +239,27 @@ class SceneBuilder {
   DiagnosticList faults_;
 };
 
-const NamedJoint& joint_in_model(const SceneModel& scene, const Coordinates& coordinates,
-                                 std::size_t robot, const std::string& name) {
-  return *coordinates.find(prefix_of(scene.description, robot) + name);  // checked by the reader
+// The reader has checked that there is one.
+NamedJoint joint_in_model(const SceneModel& scene, std::size_t robot, const std::string& name) {
+  const Model<double>& model = scene.model;
+  const auto i =
+      static_cast<std::size_t>(model.find_joint(prefix_of(scene.description, robot) + name));
+  const JointType type = model.joint[i];
+  return {name, i, type, facts_of(type).nq, model.dofs(i), model.iq[i], model.iv[i], 0};
 }
 
 }  // namespace
 
 void set_coordinates(const SceneModel& scene, std::size_t robot, const JointValueMap& q,
                      State<double>& x) {
-  const Coordinates coordinates(scene.model, false);
-  for (const auto& [name, given] : q) {
-    const NamedJoint& joint = joint_in_model(scene, coordinates, robot, name);
-    std::ranges::copy(given.values, x.q.data() + joint.iq);
-  }
+  for (const auto& [name, given] : q)
+    std::ranges::copy(given.values, x.q.data() + joint_in_model(scene, robot, name).iq);
 }
 
 void set_velocities(const SceneModel& scene, std::size_t robot, const JointValueMap& qd,
                     State<double>& x) {
-  const Coordinates coordinates(scene.model, false);
   for (const auto& [name, given] : qd)
-    to_solver(joint_in_model(scene, coordinates, robot, name), x, given.values.data(), x.qd);
+    to_solver(joint_in_model(scene, robot, name), x, given.values.data(), x.qd);
 }
 
 int body_of(const SceneModel& scene, const SceneReference& reference) {

@@ -9,7 +9,7 @@ namespace twinarm {
 // Index of the body in the model; 0 for the world and for fixed bodies.
 int body_of(const SceneModel& scene, const SceneReference& reference);
 
-void build_geometries(SceneModel& scene);  // after the constraints; also `apart` and `pairs`
+void build_geometries(SceneModel& scene);  // after the constraints; also `pairs`, `roots`, `joined`
 void build_couplings(SceneModel& scene);
 void build_constraints(SceneModel& scene);
 

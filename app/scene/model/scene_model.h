@@ -6,7 +6,9 @@
 // prescribed motion has a prescribed joint. Fixed bodies are geometry of body 0, the world.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,12 +28,7 @@ struct SceneGeometry : Surface {
   Pose X_LG;         // in the link frame; of a fixed body in the world
   ShapeDescription shape;
   int group = 0;
-};
-
-// Overrides values from the surfaces of a pair.
-struct PairOverride {
-  std::vector<int> a, b;  // geometries, ascending
-  std::optional<double> friction, restitution, stiffness, dissipation;
+  int robot = -1;  // index in SceneDescription::robots; -1: of a body
 };
 
 struct SceneMotion {
@@ -91,15 +88,18 @@ struct SceneModel {
   State<double> start;
   int robot_bodies = 0;  // bodies 1 .. robot_bodies are links of robots
   std::vector<SceneGeometry> geometries;
-  // Pairs of geometries (a < b, ascending) without contacts: of one rigid body, neighbours in a
-  // robot, both immovable, joined by a constraint, of one group, or excluded by [[pair]].
-  std::vector<std::pair<int, int>> apart;
-  std::vector<PairOverride> pairs;  // the last matching one applies
+  std::map<std::pair<int, int>, PairOverride> pairs;  // by geometries a < b
+  std::vector<int> roots;  // by body: root of its rigid body, the nearest ancestor not on a fixed
+                           // joint (or itself), or the world
+  std::set<std::pair<int, int>> joined;  // roots a < b joined by constraints
   std::vector<SceneMotion> motions;
   std::vector<SceneCoupling> couplings;
   std::vector<SceneConstraint> constraints;
 
   std::pair<int, int> bodies_of_robot(std::size_t robot) const;  // the first and the last
+  // Whether a pair of geometries has no contacts: of one rigid body, neighbours in a robot, both
+  // immovable, joined by a constraint, of one group, or excluded by [[pair]].
+  bool is_apart(int a, int b) const;
   bool may_touch() const;  // whether any pair of geometries can have contacts
   // Geometric mean of frictions, product of restitutions, maximum of torsional and rolling
   // friction, springs in series; then overrides.

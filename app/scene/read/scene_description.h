@@ -81,11 +81,14 @@ struct RobotInScene {
 
 // Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot (all
 // links).
-struct PairDescription {
+struct PairOverride {
+  std::optional<double> friction, restitution, stiffness, dissipation;  // of the surfaces
+  std::optional<bool> collide;
+};
+
+struct PairDescription : PairOverride {
   std::string a, b;
   int line = 0;
-  std::optional<double> friction, restitution, stiffness, dissipation;  // override the surfaces'
-  std::optional<bool> collide;
 };
 
 struct CouplingTarget {

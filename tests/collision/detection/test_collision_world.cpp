@@ -251,7 +251,7 @@ TEST_CASE(
   for (const int count : {40, 100}) check_pile(count);
 }
 
-TEST_CASE("disabled pairs and groups do not collide") {
+TEST_CASE("excluded pairs and groups do not collide") {
   CollisionWorld world;
   for (int i = 0; i < 3; ++i) world.add({"box", Box{{0.1, 0.1, 0.1}}, i});
   const std::vector<Pose> poses(3);
@@ -263,12 +263,22 @@ TEST_CASE("disabled pairs and groups do not collide") {
     return found;
   };
   CHECK(pairs().size() == 3);
-  world.disable_pair(2, 0);
+  world.set_pair_filter([](int a, int b) { return a == 0 && b == 2; });
   CHECK(pairs() == std::set<std::pair<int, int>>{{0, 1}, {1, 2}});
   world.set_group_filter(2, 1, false);
   CHECK(pairs() == std::set<std::pair<int, int>>{{0, 1}});
   world.set_group_filter(1, 2, true);
   CHECK(pairs().size() == 2);
+}
+
+TEST_CASE("geometries of one body do not collide with each other") {
+  CollisionWorld world;
+  for (const int body : {0, 0, 7, 7, -1, -1}) world.add({"box", Box{{0.1, 0.1, 0.1}}, 0, body});
+  std::set<std::pair<int, int>> apart;
+  for (int a = 0; a < world.size(); ++a)
+    for (int b = a + 1; b < world.size(); ++b)
+      if (!world.may_collide(a, b)) apart.emplace(a, b);
+  CHECK(apart == std::set<std::pair<int, int>>{{0, 1}, {2, 3}});
 }
 
 TEST_CASE("unsupported geometries are rejected when added, with all errors") {

@@ -9,6 +9,7 @@
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/kinematics.h"
+#include "solver/model/convert_model.h"
 
 using namespace twinarm;
 
@@ -85,6 +86,21 @@ TEST_CASE("a link named world is found before the base") {
   CHECK(model.find_joint("shoulder") == 2);
   CHECK(model.find_joint("") == -1);
   CHECK(started().build().find_body("world") == 0);
+}
+
+TEST_CASE("bodies and joints are found by name in any order, also in a converted model") {
+  ModelBuilder builder;
+  const auto name = [](int i) { return std::to_string(i * 37 % 101); };
+  for (int i = 1; i <= 100; ++i)
+    builder.add_body(name(i), i - 1, "to " + name(101 - i), JointType::revolute, {}, kAxis, kBody);
+  const Model<double> model = builder.build();
+  const Model<float> single = convert<float>(model);
+  for (int i = 1; i <= 100; ++i) {
+    CHECK(model.find_body(name(i)) == i);
+    CHECK(model.find_joint("to " + name(101 - i)) == i);
+    CHECK(single.find_body(name(i)) == i);
+    CHECK(single.find_joint(name(i)) == -1);
+  }
 }
 
 TEST_CASE("joints with an axis reject a zero or non-finite axis") {

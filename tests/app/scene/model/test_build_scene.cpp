@@ -209,7 +209,9 @@ TEST_CASE(
   CHECK(ab.rolling_friction == 0.01);
   CHECK(scene.surface_of_pair(2, 1).friction == 0.7);
   CHECK(scene.surface_of_pair(1, 2).restitution == 0);
-  CHECK(scene.apart == std::vector<std::pair<int, int>>{{0, 2}});
+  CHECK(scene.is_apart(2, 0));
+  CHECK(!scene.is_apart(0, 1));
+  CHECK(!scene.is_apart(1, 2));
   CHECK(scene.may_touch());
 }
 
@@ -230,6 +232,17 @@ TEST_CASE("scene: the springs of a pair are in series, unless overridden") {
   const Surface bc = scene.surface_of_pair(1, 2);
   CHECK(bc.stiffness == doctest::Approx(3.75e5).epsilon(1e-15));
   CHECK(bc.dissipation == 0);
+}
+
+TEST_CASE("scene: of several pairs of the same bodies the last value of each key decides") {
+  const std::string shape = "mass = 1\nshape.sphere.radius = 1\n";
+  const SceneModel scene =
+      built("[[body]]\nname = 'a'\n" + shape + "[[body]]\nname = 'b'\n" + shape +
+            "[[pair]]\na = 'a'\nb = 'b'\nfriction = 0.1\nrestitution = 0.3\ncollide = false\n" +
+            "[[pair]]\na = 'b'\nb = 'a'\nfriction = 0.2\ncollide = true\n");
+  CHECK(scene.surface_of_pair(0, 1).friction == 0.2);
+  CHECK(scene.surface_of_pair(1, 0).restitution == 0.3);
+  CHECK(!scene.is_apart(0, 1));
 }
 
 TEST_CASE("scene: no contacts of neighbours, one group, constrained or immovable bodies") {
@@ -257,7 +270,7 @@ TEST_CASE("scene: no contacts of neighbours, one group, constrained or immovable
         const auto &p = s103.geometries[static_cast<std::size_t>(i)].name,
                    &q = s103.geometries[static_cast<std::size_t>(j)].name;
         if (!((p == a && q == b) || (p == b && q == a))) continue;
-        all = all && std::count(s103.apart.begin(), s103.apart.end(), std::pair(i, j)) == 1;
+        all = all && s103.is_apart(i, j);
       }
     return all;
   };

@@ -55,18 +55,19 @@ TEST_CASE("scenes: initial penetration is at most 2 mm") {
     forward_kinematics(scene.model, scene.start, k);
     CollisionWorld world;
     std::vector<Pose> X_WG;
-    std::vector<int> id;  // by geometry; -1: contacts do not know its shape
-    for (const SceneGeometry& geometry : scene.geometries) {
-      id.push_back(is_known_to_contacts(geometry.shape) ? world.size() : -1);
-      if (id.back() < 0) continue;
+    std::vector<int> known;  // geometries whose shape contacts know
+    for (std::size_t g = 0; g < scene.geometries.size(); ++g) {
+      const SceneGeometry& geometry = scene.geometries[g];
+      if (!is_known_to_contacts(geometry.shape)) continue;
+      known.push_back(static_cast<int>(g));
       const int half = std::holds_alternative<HalfSpace>(geometry.shape) ? 1 : 0;
       world.add({geometry.name, collision_shape(geometry.shape), half});
       world.set_group_filter(1, 1, false);
       X_WG.push_back(k.X_WL[static_cast<std::size_t>(geometry.body)] * geometry.X_LG);
     }
-    for (const auto& [a, b] : scene.apart)
-      if (id[static_cast<std::size_t>(a)] >= 0 && id[static_cast<std::size_t>(b)] >= 0)
-        world.disable_pair(id[static_cast<std::size_t>(a)], id[static_cast<std::size_t>(b)]);
+    world.set_pair_filter([&](int a, int b) {
+      return scene.is_apart(known[static_cast<std::size_t>(a)], known[static_cast<std::size_t>(b)]);
+    });
     std::vector<Contact> contacts;
     world.detect(X_WG, 0, contacts);
     for (const Contact& contact : contacts) {
