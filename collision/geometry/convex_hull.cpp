@@ -11,6 +11,7 @@
 
 #include <libqhull_r/qhull_ra.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -98,12 +99,13 @@ Loops run_qhull(std::span<const Vector3> points, double tolerance) {
   return loops;
 }
 
-// Points in a balanced tree of boxes, node k above nodes 2 k + 1 and 2 k + 2.
+// Points in a balanced tree of boxes along their principal axes, flat where the points lie on a
+// surface; node k is above nodes 2 k + 1 and 2 k + 2.
 class PointTree {
  public:
   explicit PointTree(std::span<const Vector3> points) : points_(points.begin(), points.end()) {
     build(0, points_);
-    const Aabb& all = boxes_.front();
+    const Aabb all = bounding_box(points);
     rounding_ = 1e-12 * (all.min().cwiseAbs() + all.max().cwiseAbs()).sum();
   }
   // The maximum of n . p over all points and `height`, bit-identical to a plain loop.
@@ -114,24 +116,33 @@ class PointTree {
 
  private:
   static constexpr std::size_t kLeafSize = 8;
+  struct Node {
+    Matrix3 axes;
+    Aabb box;  // along the axes
+  };
 
   void build(std::size_t node, std::span<Vector3> points) {
-    if (boxes_.size() <= node) boxes_.resize(node + 1);
-    const Aabb box = boxes_[node] = bounding_box(points);
+    if (nodes_.size() <= node) nodes_.resize(node + 1);
+    const Vector3 centre = bounding_box(points).center();
+    Matrix3 spread = Matrix3::Zero();
+    for (const Vector3& p : points) spread += (p - centre) * (p - centre).transpose();
+    const Matrix3 axes = Eigen::SelfAdjointEigenSolver<Matrix3>(spread).eigenvectors();
+    nodes_[node].axes = axes;
+    for (const Vector3& p : points) nodes_[node].box.extend(axes.transpose() * p);
     if (points.size() <= kLeafSize) return;
-    int axis = 0;
-    box.sizes().maxCoeff(&axis);
     const std::size_t half = points.size() / 2;
-    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half),
-                     points.end(),
-                     [&](const Vector3& a, const Vector3& b) { return a[axis] < b[axis]; });
+    const Vector3 along = axes.col(2);  // of the largest spread
+    std::nth_element(
+        points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half), points.end(),
+        [&](const Vector3& a, const Vector3& b) { return along.dot(a) < along.dot(b); });
     build(2 * node + 1, points.first(half));
     build(2 * node + 2, points.subspan(half));
   }
   void raise(std::size_t node, std::span<const Vector3> points, const Vector3& n,
              double& height) const {
-    const Aabb& box = boxes_[node];
-    const double bound = n.dot(box.center()) + 0.5 * n.cwiseAbs().dot(box.sizes());
+    const Aabb& box = nodes_[node].box;
+    const Vector3 along = nodes_[node].axes.transpose() * n;
+    const double bound = along.dot(box.center()) + 0.5 * along.cwiseAbs().dot(box.sizes());
     if (bound + rounding_ < height) return;
     if (points.size() <= kLeafSize) {
       for (const Vector3& p : points) height = std::max(height, n.dot(p));
@@ -143,7 +154,7 @@ class PointTree {
   }
 
   std::vector<Vector3> points_;
-  std::vector<Aabb> boxes_;
+  std::vector<Node> nodes_;
   double rounding_ = 0;  // of bounds [m]
 };
 

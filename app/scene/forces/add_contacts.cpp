@@ -68,8 +68,8 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     find_deepest_contact(simulation);
     simulation.add(*contacts_);
   }
-  const bool flies = !may_touch && !locates_events(scene) &&
-                     steps_for_flight(scene, simulation.integrator());
+  const bool flies =
+      !may_touch && !locates_events(scene) && steps_for_flight(scene, simulation.integrator());
   if (flies || limits_act(scene, simulation.integrator())) {
     limits_.emplace(scene.model);  // for flight maybe without a limit
     add_limits();
