@@ -1,6 +1,7 @@
 #include "coupling/batch/batch_model.h"
 
 #include "solver/dynamics/kinematics.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm {
 
@@ -36,6 +37,7 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
     add_congruence(X[i], whole.I[i], I[i]);
   }
   model.I = inertias({});
+  index_names(model);
 }
 
 Vec3<double> ModelWithoutFixedJoints::point_of(const Model<double>& whole, std::size_t body,

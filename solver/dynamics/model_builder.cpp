@@ -133,6 +133,11 @@ std::string joint_called(const std::string& name) {
   return "joint '" + name + "'";
 }
 
+void index_names(Model<double>& model) {
+  model.by_body_name = order_of(model.body_name);
+  model.by_joint_name = order_of(model.joint_name);
+}
+
 void ModelBuilder::check(const Body& body, int index, Names& names, DiagnosticList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= index)
@@ -207,8 +212,7 @@ Model<double> ModelBuilder::build(bool kinematic) const {
   model.last_child.resize(model.parent.size());
   for (int i = 1; i < model.body_count(); ++i)
     model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
-  model.by_body_name = order_of(model.body_name);
-  model.by_joint_name = order_of(model.joint_name);
+  index_names(model);
   add_mimics_to(model, faults);
   DiagnosticList ignored;
   Model<double> repaired = check_articulated_inertia(model, kinematic ? ignored : faults);

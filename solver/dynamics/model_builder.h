@@ -31,6 +31,9 @@ struct JointProperties {
 std::string link_called(const std::string& name);
 std::string joint_called(const std::string& name);
 
+// Fills by_body_name and by_joint_name from the names.
+void index_names(Model<double>& model);
+
 class ModelBuilder {
  public:
   // X_PJ: pose of the joint frame in the parent's link frame; at the joint's identity the new link
