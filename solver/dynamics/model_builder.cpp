@@ -87,12 +87,13 @@ std::vector<double> articulated_inertia_by_dof(const Model<double>& model) {
   return largest;
 }
 
-// Bodies other than the base, ascending by name.
+// Bodies other than the base, ascending by name, then by index.
 std::vector<int> order_of(const std::vector<std::string>& names) {
   std::vector<int> order(names.size() - 1);
   std::iota(order.begin(), order.end(), 1);
-  std::ranges::sort(
-      order, {}, [&](int i) -> const std::string& { return names[static_cast<std::size_t>(i)]; });
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
+    return names[static_cast<std::size_t>(i)] < names[static_cast<std::size_t>(j)];
+  });
   return order;
 }
 
