@@ -83,8 +83,17 @@ class LabPage(LabCase):
         self.mouse("mouseReleased", end)
 
     def restart(self):
-        self.value("twinarm.page.send({do: 'reset'})")
-        self.until(f"{STATE}.time < 0.5 && {STATE}.playing && twinarm.page.frame.time < 0.5")
+        # The page looks, as this process may look too late on a busy machine.
+        self.value("""(() => {
+            const {page} = twinarm, timer = setInterval(() => {
+              if (page.state.time >= 0.5 || !page.state.playing || page.frame.time >= 0.5) return;
+              clearInterval(timer);
+              window.hasRestarted = true;
+            }, 5);
+            window.hasRestarted = false;
+            page.send({do: 'reset'});
+          })()""")
+        self.until("window.hasRestarted")
 
     def target(self):
         return [self.channel(f"target/joint{n}") for n in (1, 2)]
