@@ -73,7 +73,7 @@ void check_errors(const std::string& err, const std::string* json) {
     require(line.find("; ") != line.npos || line.find(" must ") != line.npos,
             ("no remedy: " + line).c_str());
   }
-  require(count > 0, "no error is told");
+  require(count > 0, "no error is reported");
   if (!json) return;
   require(is_one_json(*json), "stdout is not one JSON object");
   require(Json::parse(*json).at("errors").size() == count, "stdout and stderr differ in errors");

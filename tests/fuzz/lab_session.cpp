@@ -35,13 +35,10 @@ class ScheduledLab {
     if (!ids_[0]) come_or_leave(ids_[0]);
     for (ClientId& client : ids_)
       if (&client != &ids_[0] && client) come_or_leave(client);
-    long scenes = 0;
-    for (int n = 0; n < 4; ++n) {
-      build_waiting();
-      turn();
-      if (n == 0) scenes = state_.status.scene;
-      if (n == 0) say(ids_[0], R"({"do": "scene", "name": "first"})");
-    }
+    turn_often();  // what the clients have ordered
+    const long scenes = state_.status.scene;
+    say(ids_[0], R"({"do": "scene", "name": "first"})");
+    turn_often();
     require(state_.status.scene == scenes + 1 && state_.loop.run().view().time() > 0,
             "the run steps no more");
   }
@@ -152,6 +149,13 @@ class ScheduledLab {
       state_.inbox.push_refused(request.pending.back().number);
   }
 
+  // Until an order is carried out and a step taken.
+  void turn_often() {
+    for (int n = 0; n < 3; ++n) {
+      build_waiting();
+      turn();
+    }
+  }
   // As the run's thread does, with one step.
   void turn() {
     LabStatus& status = state_.status;

@@ -112,7 +112,6 @@ void SceneReader::read_robot(const Value& value) {
 
 namespace {
 
-// Roll, pitch and yaw about fixed axes, as in Origin::pose().
 // Makes the joint fixed at the position q.
 void fix_at(JointDescription& joint, double q) {
   const Matrix3 R = joint.X_PJ().R;

@@ -79,13 +79,14 @@ struct RobotInScene {
   std::vector<PointMass> payloads;
 };
 
-// Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot (all
-// links).
+// Replaces values that follow from the two surfaces.
 struct PairOverride {
-  std::optional<double> friction, restitution, stiffness, dissipation;  // of the surfaces
+  std::optional<double> friction, restitution, stiffness, dissipation;
   std::optional<bool> collide;
 };
 
+// Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot (all
+// links).
 struct PairDescription : PairOverride {
   std::string a, b;
   int line = 0;
