@@ -16,6 +16,7 @@
 #include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
+#include "collision/sandbox/fork_server.h"
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
 
@@ -250,6 +251,7 @@ class Lab {
 };
 
 int run_lab(const LabOptions& options) {
+  const ForkServer before_threads;
   isolate_parsers();
   Lab lab(options, read_gallery());
   const std::string url = lab.url() + query_of(options);

@@ -175,6 +175,17 @@ void visit(StateArchive& archive, Value& value, std::size_t depth) {
   }
 }
 
+Value parse_toml(const std::string& file, const std::string&) {
+  const std::string text = read_toml_text(file);
+  try {
+    return value_of_node(toml::parse(text, file));
+  } catch (const toml::parse_error& error) {
+    throw InputError({{file, static_cast<int>(error.source().begin.line), "",
+                       "not well-formed TOML: " + std::string(error.description()),
+                       "correct this line", "file.toml"}});
+  }
+}
+
 }  // namespace
 
 void serialize(StateArchive& archive, Value& value) {
@@ -182,16 +193,7 @@ void serialize(StateArchive& archive, Value& value) {
 }
 
 Value read_toml(const std::filesystem::path& file) {
-  return parse<Value>(file, [&] {
-    const std::string text = read_toml_text(file);
-    try {
-      return value_of_node(toml::parse(text, file.string()));
-    } catch (const toml::parse_error& error) {
-      throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
-                         "not well-formed TOML: " + std::string(error.description()),
-                         "correct this line", "file.toml"}});
-    }
-  });
+  return parse<parse_toml>(file.string());
 }
 
 }  // namespace twinarm

@@ -197,7 +197,8 @@ class AssimpConverter {
 };
 
 // Runs in the child process. Returns ' ' and the packed model, or '!' and an error message.
-std::string read_packed(const fs::path& file) {
+std::string read_packed(const std::string& name) {
+  const fs::path file = name;
   Assimp::Importer importer;
   keep_trusted_readers(importer);
   auto* const folder = new FolderIO(file);
@@ -209,8 +210,8 @@ std::string read_packed(const fs::path& file) {
                                   aiComponent_ANIMATIONS | aiComponent_LIGHTS |
                                   aiComponent_CAMERAS);
   const aiScene* scene = importer.ReadFile(
-      file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType |
-                         aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
+      name, aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType |
+                aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
   if (scene == nullptr) return std::string("!") + importer.GetErrorString();
   const std::string extension = lower_case(file.extension().string());
   AssimpConverter converter(*scene, *folder, extension == ".gltf" || extension == ".glb");
@@ -243,7 +244,7 @@ void check_parts(const fs::path& file, const ModelFile& model) {
 
 ModelFile read_model(const fs::path& file, const ChildLimits& limits) {
   check_file(file);
-  const ChildResult result = run_limited([&] { return read_packed(file); }, limits);
+  const ChildResult result = run_limited(read_packed, file.string(), limits);
   if (!result.fault.empty())
     refuse(file, "the reader of this format " + result.fault,
            "export the mesh again, preferably as STL, OBJ or GLB");

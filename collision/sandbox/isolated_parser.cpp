@@ -4,7 +4,6 @@
 #include <mutex>
 #include <set>
 
-#include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -42,40 +41,47 @@ bool parsers_are_isolated() {
   return isolated;
 }
 
-void refuse_parsed(const std::filesystem::path& file, const std::string& problem) {
-  throw InputError({{file.string(), 0, "", "the reader of this file " + problem,
+void refuse_parsed(const std::string& file, const std::string& problem) {
+  throw InputError({{file, 0, "", "the reader of this file " + problem,
                      "give a smaller file, or repair it", "parser.failed"}});
 }
 
-std::string parsed_in_child(const std::filesystem::path& file,
-                            const std::function<std::string()>& parse) {
-  const ChildResult child = run_limited(
-      [&] {
-        std::vector<Diagnostic> faults;
-        std::string bytes;
-        try {
-          bytes = parse();
-        } catch (const InputError& error) {
-          faults = error.faults();
-        }
-        StateArchive archive;
-        serialize(archive, faults);
-        archive.visit(bytes);
-        return archive.bytes();
-      },
-      {.cpu_seconds = 10, .wall_seconds = 30});
+std::string answer_of_parser(const std::string& order,
+                             std::string (*packed)(const std::string& file,
+                                                   const std::string& bytes)) {
+  StateArchive received(order);
+  std::string file, bytes, result;
+  received.visit(file, bytes);
+  std::vector<Diagnostic> faults;
+  try {
+    result = packed(file, bytes);
+  } catch (const InputError& error) {
+    faults = error.faults();
+  }
+  StateArchive archive;
+  serialize(archive, faults);
+  archive.visit(result);
+  return archive.bytes();
+}
+
+std::string parsed_in_child(const std::string& file, const std::string& bytes, ChildWork work) {
+  std::string name = file, content = bytes;
+  StateArchive order;
+  order.visit(name, content);
+  const ChildResult child =
+      run_limited(work, order.bytes(), {.cpu_seconds = 10, .wall_seconds = 30});
   if (!child.fault.empty()) refuse_parsed(file, child.fault);
   StateArchive archive(child.bytes);
   std::vector<Diagnostic> faults;
-  std::string bytes;
+  std::string result;
   try {
     serialize(archive, faults);
-    archive.visit(bytes);
+    archive.visit(result);
   } catch (const std::runtime_error&) {  // truncated
     refuse_parsed(file, "fails");
   }
   if (!faults.empty()) throw InputError(std::move(faults));
-  return bytes;
+  return result;
 }
 
 }  // namespace twinarm

@@ -3,10 +3,9 @@
 // own formats, read with bounds.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <string>
 
+#include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
@@ -15,25 +14,33 @@ namespace twinarm {
 void isolate_parsers(bool on = true);
 bool parsers_are_isolated();
 
-// In a child: the bytes of `parse`. Throws InputError, also those of `parse`, or "parser.failed" if
-// the child fails or exceeds its limits.
-std::string parsed_in_child(const std::filesystem::path& file,
-                            const std::function<std::string()>& parse);
-[[noreturn]] void refuse_parsed(const std::filesystem::path& file, const std::string& problem);
+// What `work` packs in a child. Throws InputError, also of the parser, or "parser.failed" if the
+// child fails or exceeds its limits.
+std::string parsed_in_child(const std::string& file, const std::string& bytes, ChildWork work);
+// What such work does: reads the order, and packs the result or the faults.
+std::string answer_of_parser(const std::string& order,
+                             std::string (*packed)(const std::string& file,
+                                                   const std::string& bytes));
+[[noreturn]] void refuse_parsed(const std::string& file, const std::string& problem);
 
-// What `read` returns; if parsers are isolated, from a child, transferred by
-// serialize(StateArchive&, Result&). Throws InputError.
-template <class Result>
-Result parse(const std::filesystem::path& file, const std::function<Result()>& read) {
-  if (!parsers_are_isolated()) return read();
-  StateArchive archive(parsed_in_child(file, [&] {
-    StateArchive packed;
-    Result result = read();
-    serialize(packed, result);
-    return packed.bytes();
+template <auto read>
+std::string pack_parsed(const std::string& file, const std::string& bytes) {
+  StateArchive packed;
+  auto result = read(file, bytes);
+  serialize(packed, result);
+  return packed.bytes();
+}
+
+// What `read` returns for this file, or for these bytes of it; if parsers are isolated, from a
+// child, transferred by serialize(StateArchive&, Result&). Throws InputError.
+template <auto read>
+auto parse(const std::string& file, const std::string& bytes = "") {
+  if (!parsers_are_isolated()) return read(file, bytes);
+  StateArchive archive(parsed_in_child(file, bytes, [](const std::string& order) {
+    return answer_of_parser(order, pack_parsed<read>);
   }));
   try {
-    Result result;
+    decltype(read(file, bytes)) result;
     serialize(archive, result);
     if (archive.at_end()) return result;
   } catch (const std::runtime_error&) {  // truncated

@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import pathlib
 import re
 import signal
 import time
@@ -9,7 +10,7 @@ import time
 from lab_test import ROD, SCENE, LabTest, Running
 from live_socket import Lab
 from program import SCENES, ProgramTest, main
-from waiting import TIMEOUT
+from waiting import TIMEOUT, wait_for
 
 
 class LabCommand(LabTest):
@@ -301,6 +302,20 @@ class LabEnds(ProgramTest):
                 live.wait_for("frame")
             self.assertEqual(running.end(how), (0, ""))
             self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_files_are_read_by_children_of_a_process_without_threads_that_ends_with_the_lab(self):
+        running = Running(SCENES / "bouncing_ball.toml")
+        self.addCleanup(running.process.kill)
+        tasks = pathlib.Path("/proc") / str(running.process.pid) / "task"
+        self.assertGreater(len(list(tasks.iterdir())), 1)
+        server, = (tasks / str(running.process.pid) / "children").read_text().split()
+        server = pathlib.Path("/proc") / server
+        self.assertEqual(len(list((server / "task").iterdir())), 1)
+        with Lab(running.url).live() as live:
+            self.assertEqual(Lab(running.url).upload("rod.urdf", ROD, live).status, 200)
+        running.process.kill()
+        running.process.communicate()
+        wait_for(lambda: not server.exists(), "the fork server has ended")
 
     def test_remote_clients_open_no_files_and_devices(self):
         for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):

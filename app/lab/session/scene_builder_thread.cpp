@@ -10,6 +10,7 @@
 #include "app/support/files.h"
 #include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
 namespace {
@@ -33,16 +34,34 @@ std::shared_ptr<const LabScene> open_scene(const BuildRequest& request) {
   }
 }
 
+void serialize(StateArchive& archive, BuildRequest& upload) {
+  std::string file = upload.file.string();
+  bool has_roots = upload.roots.has_value();
+  std::vector<std::string> roots;
+  if (has_roots) roots.assign(upload.roots->begin(), upload.roots->end());
+  archive.visit(file, upload.is_shared, has_roots, roots);
+  if (!archive.reads()) return;
+  upload.file = file;
+  if (has_roots) upload.roots.emplace(roots.begin(), roots.end());
+}
+
+std::string try_to_open(const std::string& packed) {
+  StateArchive archive(packed);
+  BuildRequest request;
+  serialize(archive, request);
+  try {
+    open_scene(request);
+  } catch (const InputError&) {  // reported by the reading that follows
+  }
+  return "";
+}
+
 // Refuses a file that crashes its reader, or takes more than the limits of time and memory.
-void try_in_child(const BuildRequest& request) {
-  const auto read = [&] {
-    try {
-      open_scene(request);
-    } catch (const InputError&) {  // reported by the reading that follows
-    }
-    return std::string();
-  };
-  const ChildResult tried = run_limited(read, {.cpu_seconds = 10, .wall_seconds = 30});
+void try_in_child(BuildRequest& request) {
+  StateArchive packed;
+  serialize(packed, request);
+  const ChildResult tried =
+      run_limited(try_to_open, packed.bytes(), {.cpu_seconds = 10, .wall_seconds = 30});
   if (!tried.fault.empty())
     throw InputError({{request.file.filename().string(), 0, "", "reading it " + tried.fault,
                        "give a smaller file, or repair it", "lab.unreadable"}});

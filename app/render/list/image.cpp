@@ -127,6 +127,12 @@ Image decode_jpeg(const std::string& name, std::string_view bytes) {
   return image;
 }
 
+Image decode(const std::string& name, const std::string& bytes) {
+  if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
+  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
+  refuse(name, "is neither a PNG nor a JPEG");
+}
+
 }  // namespace
 
 void serialize(StateArchive& archive, Image& image) {
@@ -152,11 +158,7 @@ void write_png(const std::string& path, const Image& image) {
 }
 
 Image decode_image(const std::string& name, std::string_view bytes) {
-  return parse<Image>(name, [&] {
-    if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
-    if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
-    refuse(name, "is neither a PNG nor a JPEG");
-  });
+  return parse<decode>(name, std::string(bytes));
 }
 
 Image read_image(const std::filesystem::path& file) {

@@ -74,10 +74,10 @@ class XmlScan {
   std::size_t at_ = 0, parts_ = 0;
 };
 
-XmlElement parse_xml(const std::filesystem::path& file) {
+XmlElement parse_xml(const std::string& file, const std::string&) {
   const auto refuse = [&](int line, const std::string& problem, const std::string& fix,
                           std::string_view code) {
-    throw InputError({{file.string(), line, "", problem, fix, code}});
+    throw InputError({{file, line, "", problem, fix, code}});
   };
   const std::string text = read_bounded_file(file, 16, "give a URDF file; store meshes separately");
   XmlScan scan(text);
@@ -136,7 +136,7 @@ void serialize(StateArchive& archive, XmlElement& element) {
 }
 
 XmlElement read_xml(const std::filesystem::path& file) {
-  return parse<XmlElement>(file, [&] { return parse_xml(file); });
+  return parse<parse_xml>(file.string());
 }
 
 }  // namespace twinarm

@@ -2,7 +2,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -57,17 +56,22 @@ TEST_CASE("an isolated parser reports the same errors with their lines and codes
   }
 }
 
+XmlElement crash(const std::string&, const std::string&) {
+  std::abort();
+}
+XmlElement throw_unexpected(const std::string&, const std::string&) {
+  throw std::logic_error("unexpected");
+}
+XmlElement take_too_long(const std::string&, const std::string&) {
+  raise(SIGXCPU);  // what ends a parser that takes too long
+  std::abort();
+}
+
 TEST_CASE("a parser that is taken over, crashes or never ends is an error of its file") {
   const Isolated isolated;
-  const std::function<XmlElement()> works[] = {
-      [&]() -> XmlElement { std::abort(); },
-      [&]() -> XmlElement { throw std::logic_error("unexpected"); },
-      [&]() -> XmlElement {  // what ends a parser that takes too long
-        raise(SIGXCPU);
-        std::abort();
-      }};
-  for (const auto& work : works) {
-    const auto faults = faults_of([&] { parse<XmlElement>("x.urdf", work); });
+  for (const auto& faults : {faults_of([] { parse<crash>("x.urdf"); }),
+                             faults_of([] { parse<throw_unexpected>("x.urdf"); }),
+                             faults_of([] { parse<take_too_long>("x.urdf"); })}) {
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].file == "x.urdf");
     CHECK(faults[0].code == "parser.failed");
