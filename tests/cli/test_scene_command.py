@@ -1,11 +1,25 @@
 """`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused."""
 import json
 import math
+import struct
 
 from program import data, main
 from robot_command import HINGE, HINGE_INERTIA, STEADY_HAND, RobotCommand, add, joint, link, robot, scale
 
 BALL = data("ball.toml")
+
+
+def torus(side):
+    """Binary STL of a closed surface of 2 side^2 triangles that is not convex."""
+    turn = [(math.cos(2 * math.pi * k / side), math.sin(2 * math.pi * k / side)) for k in range(side)]
+
+    def at(y, x):
+        (c, s), (cx, sx) = turn[y % side], turn[x % side]
+        return (2 + c) * cx, (2 + c) * sx, s
+    faces = [f for y in range(side) for x in range(side)
+             for f in ((at(y, x), at(y, x + 1), at(y + 1, x)), (at(y, x + 1), at(y + 1, x + 1), at(y + 1, x)))]
+    return b" " * 80 + struct.pack("<I", len(faces)) + b"".join(
+        struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0) for a, b, c in faces)
 
 
 def arm(name, more=""):
@@ -361,6 +375,16 @@ class Flight(Scenes):
 
 
 class Refused(Scenes):
+    def test_meshes_that_may_touch_have_a_bound_on_their_triangles(self):
+        (self.folder / "torus.stl").write_bytes(torus(276))  # two of them have more than 300,000
+        mesh = '[[body]]\nname = "{0}"\nfixed = true\nposition = [{0}0, 0, 0]\n' \
+               'shape = {{ mesh = {{ file = "torus.stl", convex = false }} }}\n'
+        once = "--duration", 0.001
+        scene = BALL + mesh.format(1)
+        self.run_scene(scene, *once)
+        problem = self.refused("scene.too-many", "", 0, scene + mesh.format(2), *once)
+        self.assertIn("convex = true", problem)
+
     def test_a_step_of_the_scene_without_end_is_reported_by_its_key(self):
         self.refused("run.too-many-steps", "step", 0, f"step = 1e-11\n{BALL}", "--duration", "1")
 

@@ -85,14 +85,22 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
 }
 
 void SceneContacts::add_geometries() {
+  std::size_t triangles = 0;  // of meshes that are not replaced by their hulls
   for (const SceneGeometry& g : scene_.geometries) {
+    Shape shape = collision_shape(g.shape);
+    if (const auto* mesh = std::get_if<MeshShape>(&shape)) triangles += mesh->mesh.triangles.size();
+    constexpr std::size_t kMaxTriangles = 300000;  // each takes 2.5 kB
+    if (triangles > kMaxTriangles)
+      throw InputError({{scene_.description.file.string(), 0, "",
+                         "meshes that may touch have more than 300,000 triangles in all",
+                         "give convex = true, or simplify them", "scene.too-many"}});
     const ContactSurface surface{.friction = g.friction,
                                  .restitution = g.restitution,
                                  .torsional = g.torsional_friction,
                                  .rolling = g.rolling_friction,
                                  .stiffness = g.stiffness,
                                  .dissipation = g.dissipation};
-    contacts_->bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+    contacts_->bodies().add({g.name, g.body, g.X_LG, std::move(shape), surface, 0});
   }
   contacts_->bodies().world().set_pair_filter(
       [&scene = scene_](int a, int b) { return scene.is_apart(a, b); });
