@@ -44,6 +44,33 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+// pybind11 2.10 ends the interpreter when its message about wrong arguments names a keyword that is
+// not UTF-8: here it is a UnicodeEncodeError.
+struct CheckedFunction : py::cpp_function {
+  static PyObject* call(PyObject* self, PyObject* arguments, PyObject* keywords) {
+    Py_ssize_t at = 0;
+    PyObject* name = nullptr;
+    while (keywords != nullptr && PyDict_Next(keywords, &at, &name, nullptr))
+      if (PyUnicode_AsUTF8(name) == nullptr) return nullptr;
+    return dispatcher(self, arguments, keywords);
+  }
+  // Of a module and its classes.
+  static void replace_all_of(const py::handle& owner) {
+    for (auto [unused, member] : py::dict(owner.attr("__dict__"))) {
+      py::object function = py::getattr(member, "__func__", member);
+      if (PyInstanceMethod_Check(function.ptr()))
+        function = py::reinterpret_borrow<py::object>(PyInstanceMethod_GET_FUNCTION(member.ptr()));
+      if (PyType_Check(function.ptr())) replace_all_of(function);
+      if (!PyCFunction_Check(function.ptr())) continue;
+      PyCFunction& code = reinterpret_cast<PyCFunctionObject*>(function.ptr())->m_ml->ml_meth;
+      const auto function_of = [](auto* with_keywords) {
+        return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(with_keywords));
+      };
+      if (code == function_of(dispatcher)) code = function_of(call);
+    }
+  }
+};
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
@@ -74,4 +101,5 @@ PYBIND11_MODULE(_core, m) {
   python::add_scene_stepper(m);
   python::add_couplings(m);
   python::add_recordings(m);
+  CheckedFunction::replace_all_of(m);
 }
