@@ -18,6 +18,7 @@
 #include "coupling/target/synthetic_operator.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {

@@ -5,8 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {
@@ -135,14 +135,8 @@ std::string without_nan(const std::string& text) {
 }  // namespace
 
 Value read_json(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file", "file.is-folder"}});
-  constexpr std::uintmax_t kMaxJsonBytes = 4u << 20;
-  if (std::filesystem::file_size(file, error) > kMaxJsonBytes && !error)
-    throw InputError({{file.string(), 0, "", "has more than 4 MiB",
-                       "name a state file: a few numbers for each joint", "file.too-large"}});
-  return parse_json(read_whole_file(file), file.string());
+  const char* const fix = "name a state file: a few numbers for each joint";
+  return parse_json(read_bounded_file(file, 4, fix), file.string());
 }
 
 Value parse_json(const std::string& json, const std::string& name) {

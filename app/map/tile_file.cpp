@@ -10,6 +10,7 @@
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
+#include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

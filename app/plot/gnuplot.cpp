@@ -13,6 +13,7 @@
 #include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 

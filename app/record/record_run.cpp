@@ -10,6 +10,7 @@
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "collision/mesh_files/model_file.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/record/recording_writer.h"
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

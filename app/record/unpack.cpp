@@ -142,12 +142,14 @@ InputError UnpackedRun::with_original_paths(const InputError& error,
 }
 
 bool is_recording(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(8, '\0');
-  stream.read(start.data(), 8);
-  if (stream && start == std::string(recording_format::kMagic, 8)) return true;
   if (file.extension() == ".twinrec") return true;  // the reader reports a missing file
   std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored)) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string start(8, '\0');
+    stream.read(start.data(), 8);
+    if (stream && start == std::string(recording_format::kMagic, 8)) return true;
+  }
   return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
 }
 

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 
 namespace twinarm {
 namespace {
@@ -136,29 +135,6 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
     return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
   };
   return !whole(a).empty() && whole(a) == whole(b);
-}
-
-std::ifstream open_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    throw InputError({{file.string(), 0, "", "the file does not exist",
-                       "check the name and the current folder", "file.missing"}});
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(
-        {{file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"}});
-  if (std::filesystem::is_character_file(file, ignored))  // may never end
-    throw InputError({{file.string(), 0, "", "is a device", "name a file", "file.no-file"}});
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw InputError({{file.string(), 0, "", "the file cannot be read",
-                       "check its permissions: ls -l shows them", "file.unreadable"}});
-  return stream;
-}
-
-std::string read_whole_file(const std::filesystem::path& file) {
-  std::stringstream content;
-  content << open_file(file).rdbuf();
-  return std::move(content).str();
 }
 
 void fill_closed_streams() {

@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,9 +35,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if i
 void check_place(const std::filesystem::path& file, const char* option, DiagnosticList& faults);
 // Whether two names are those of one file, which need not exist.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
-// Both throw InputError if the file does not exist or cannot be read.
-std::ifstream open_file(const std::filesystem::path& file);
-std::string read_whole_file(const std::filesystem::path& file);
 
 // A new folder NAME-XXXXXX for temporary files, removed with them by the destructor, or by the
 // signal that ends the program. Throws InputError.

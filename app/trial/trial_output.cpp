@@ -10,6 +10,7 @@
 #include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {

@@ -8,6 +8,7 @@
 #include "coupling/target/recorded_trace.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -104,7 +105,7 @@ void write_device_log(const DeviceMotion& motion, const std::filesystem::path& f
 bool is_device_log(const std::filesystem::path& file) {
   const std::string header = device_log_header();
   std::string start(header.size(), '\0');
-  std::ifstream stream(file);
+  std::ifstream stream = open_file(file);
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
 }
 
@@ -112,7 +113,7 @@ std::unique_ptr<DeviceMotion> read_device_log(const std::filesystem::path& file)
   if (!is_device_log(file))
     throw InputError({{file.string(), 1, "header", "the header is not that of a motion log",
                        "give a file written by `twinarm hand --log`", "hand.header"}});
-  std::ifstream stream(file);
+  std::ifstream stream = open_file(file);
   std::string line;
   next_line(stream, line, file.string(), 1);
   std::vector<DeviceStep> steps;

@@ -11,6 +11,7 @@
 #include "solver/spatial/scalar.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -224,10 +225,7 @@ class TraceReader {
 };
 
 RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {
-  std::ifstream stream(file);
-  if (!stream)
-    throw InputError({{file_, 0, "", "the trace cannot be opened", "give an existing CSV file",
-                       "file.missing"}});
+  std::ifstream stream = open_file(file);
   TraceReader(*this).read(stream);
 }
 

@@ -9,7 +9,7 @@ import tempfile
 
 import program
 import recording_format as form
-from program import ProgramTest, main
+from program import ROOT, SCENES, ProgramTest, main
 
 GIGABYTE = 1 << 30
 SECONDS = 10  # of processor time; what they take is a tenth of it
@@ -124,6 +124,19 @@ class HostileFiles(ProgramTest):
         self.refused("64 KiB", "simulate", file)
         self.write("hand.csv", b"\n" * (1 << 20))
         self.refused("hand.csv", "simulate", file)
+
+    def test_a_pipe_without_a_writer_is_refused_wherever_a_file_is_read(self):
+        pendulum, hand = ROOT / "assets/robots/teaching/pendulum.urdf", SCENES / "hand_and_obstacles.toml"
+        for name in ("x.urdf", "x.toml", "x.twinrec", "x.json", "x.csv", "x.stl", "x.png"):
+            os.mkfifo(self.folder / name)
+        for command in (("dynamics", "x.urdf"), ("simulate", "x.toml", "--duration", "1"), ("inspect", "x.twinrec"),
+                        ("export", "x.twinrec", "--json"), ("replay", "x.twinrec"), ("make-robot", "x.toml"),
+                        ("dynamics", pendulum, "--state", "x.json"), ("study", "--trace", "x.csv"),
+                        ("hand", hand, "--device", "virtual:trace:x.csv", "--duration", "1")):
+            self.refused("is a device or a pipe", *command)
+        for shape in (b"shape = { mesh = { file = 'x.stl' } }\n", b"texture = 'x.png'\n"):
+            scene = self.write("b.toml", b"[[body]]\nname = 'b'\nfixed = true\n" + shape)
+            self.refused("x.", "render", scene, "--png", "out.png")
 
     def recorded(self, change):
         file = self.folder / "run.twinrec"

@@ -10,6 +10,7 @@
 #include "app/lab/session/session_commands.h"
 #include "app/support/files.h"
 #include "app/support/text.h"
+#include "solver/support/input_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -12,6 +12,7 @@
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm::compare_page {
 namespace {

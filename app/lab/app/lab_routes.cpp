@@ -5,6 +5,7 @@
 #include "app/page/pages.h"
 #include "app/render/gl/painter.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

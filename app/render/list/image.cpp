@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <csetjmp>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {
@@ -162,15 +161,7 @@ Image decode_image(const std::string& name, std::string_view bytes) {
 }
 
 Image read_image(const std::filesystem::path& file) {
-  std::error_code error;
-  constexpr std::uintmax_t kMaxPictureBytes = 64u << 20;
-  if (std::filesystem::file_size(file, error) > kMaxPictureBytes && !error)
-    refuse(file.string(), "has more than 64 MiB");
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (!in) refuse(file.string(), "cannot be read");
-  return decode_image(file.string(), std::move(bytes).str());
+  return decode_image(file.string(), read_bounded_file(file, 64, "use a smaller picture"));
 }
 
 }  // namespace twinarm

@@ -68,8 +68,9 @@ auto read_file(const std::filesystem::path& file, const char* article, const std
     return InputError({{file.string(), 0, "", problem,
                         fmt::format("run `twinarm study {}`", option), "study.calibration"}});
   };
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) throw fail("cannot open the " + thing);
   std::ifstream stream(file);
-  if (!stream) throw fail("cannot open the " + thing);
   try {
     return read(nlohmann::json::parse(stream));
   } catch (const nlohmann::json::exception& error) {

@@ -11,6 +11,7 @@
 #include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/sandbox/bounded_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 
 namespace twinarm {
 namespace {

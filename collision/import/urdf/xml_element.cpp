@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "collision/sandbox/bounded_file.h"
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/input_file.h"
 #include "solver/support/text.h"
 
 namespace twinarm {

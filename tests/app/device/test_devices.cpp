@@ -79,7 +79,7 @@ TEST_CASE("devices: unknown names are refused with the nearest known one") {
   CHECK(tells(device_fault("virtual:synthetic:x").problem, "whole number"));
   CHECK(tells(device_fault("virtual:step:3").problem, "no argument"));
   CHECK(tells(device_fault("virtual:trace").problem, "file is missing"));
-  CHECK(tells(device_fault("virtual:trace:/nowhere.csv").problem, "cannot be opened"));
+  CHECK(tells(device_fault("virtual:trace:/nowhere.csv").file, "nowhere.csv"));
   CHECK_FALSE(device_fault("").problem.empty());
 }
 
