@@ -8,13 +8,13 @@ import { Drag } from '../input/drag';
 import { Operator } from '../input/operator';
 import { Handles } from '../input/handles';
 import { KeyInput } from '../input/key_input';
-import { isKept, labKeys, type LabKeys, MOUSE } from './lab_keys';
+import { isKept, labKeys, MOUSE } from './lab_keys';
 import { panelsOf } from './lab_panels';
 import * as wire from '../source/link';
 import { LiveStage, Picture } from '../view/live_stage';
 import { remember, remembered, Theme } from '../ui/preferences';
 import { Overlays, Views } from '../view/view_options';
-import type { Listener, Panel } from '../panels/panel';
+import type { LabPage, Listener, Panel } from '../panels/panel';
 import { Pace } from '../view/pace';
 import { presenterButtons } from '../ui/presenter';
 import { Hints } from '../panels/hints';
@@ -31,7 +31,7 @@ const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
 const DEFAULT_LAYERS = ['targets', 'device', 'couplings', 'contacts', 'device-force', 'earlier-run'];
 const NO_CONTROL = new Set(['layers', 'inspect', 'request_control']); // commands that need no control
 
-class Page implements LabKeys {
+export class Page implements LabPage {
   scene: wire.SceneMessage | null = null;
   state: wire.StateMessage | null = null;
   frame: wire.Frame | null = null;
@@ -54,18 +54,17 @@ class Page implements LabKeys {
   readonly operator = new Operator(this.link, () => this.state, (text) => this.showMessage(text));
   private readonly controller = new Controller(this.operator, (text) => this.showMessage(text));
   private readonly handles = new Handles(this.over);
-  private readonly changed = () => this.touch();
   private readonly labView = () => this.view;
   readonly drag: Drag = new Drag(this.host, this.labView, this.operator, this.handles, {
     select: (body) => this.select(body),
-    changed: this.changed,
+    changed: () => this.touch(),
   });
   readonly keys = new KeyInput(
     this.labView,
     this.operator,
     this.handles,
     (view, joint) => this.drag.jointValue(view, joint),
-    this.changed,
+    () => this.touch(),
   );
   private readonly run = new LiveRun(this);
   readonly set = panelsOf(this, this.run);

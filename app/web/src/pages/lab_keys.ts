@@ -1,32 +1,12 @@
 // Keyboard of the lab: all that a mouse can do.
 import { clockKeys, key, type Key, viewKeys } from '../ui/keys';
-import type { ViewName } from '../view/stage';
-import type { Operator } from '../input/operator';
-import type { KeyInput } from '../input/key_input';
-import type { LabPage } from '../panels/panel';
-import type { PanelSet } from './lab_panels';
-import type { Overlays, Views } from '../view/view_options';
-import type { LiveStage } from '../view/live_stage';
+import type { Page } from './lab';
 
-// The page, as its keys use it.
-export interface LabKeys extends LabPage {
-  readonly set: PanelSet;
-  readonly live: LiveStage;
-  readonly overlays: Overlays;
-  readonly views: Views;
-  readonly operator: Operator;
-  readonly keys: KeyInput;
-  look(name: ViewName): void;
-  isTab(title: string): boolean;
-  togglePanel(): void;
-  toggleTheme(): void;
-}
-
-export function labKeys(page: LabKeys): Key[] {
+export function labKeys(page: Page): Key[] {
   return [...runKeys(page), ...inputKeys(page), ...viewAndSelectionKeys(page), ...pageKeys(page)];
 }
 
-function runKeys(page: LabKeys): Key[] {
+function runKeys(page: Page): Key[] {
   const { time } = page.set;
   const step = () => {
     if (!page.isTab('Inspector')) page.send({ do: 'step', steps: 1 }); // else a step of the call
@@ -40,7 +20,7 @@ function runKeys(page: LabKeys): Key[] {
 }
 
 // Arrow keys move the end effector, joint or spring if one is chosen, else they seek.
-function inputKeys(page: LabKeys): Key[] {
+function inputKeys(page: Page): Key[] {
   const { operator, keys, set: { time } } = page;
   const move = (right: number, up: number, away: number) => (event: KeyboardEvent) => {
     if (keys.isOn) keys.move(right, up, away, event.shiftKey);
@@ -73,7 +53,7 @@ function inputKeys(page: LabKeys): Key[] {
   ];
 }
 
-function viewAndSelectionKeys(page: LabKeys): Key[] {
+function viewAndSelectionKeys(page: Page): Key[] {
   const { live, overlays, views } = page;
   const selectNext = (by: number) => () => {
     const { scene } = page;
@@ -94,7 +74,7 @@ function viewAndSelectionKeys(page: LabKeys): Key[] {
   ];
 }
 
-function pageKeys(page: LabKeys): Key[] {
+function pageKeys(page: Page): Key[] {
   const { keys, overlays, set: { gallery } } = page;
   const tab = (title: string) => () => page.showTab(title);
   const tabs = { n: tab('Parameters'), p: tab('Plots'), i: tab('Inspector'), l: tab('Energy') };

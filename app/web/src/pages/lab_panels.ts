@@ -14,10 +14,12 @@ import type { RunSource } from '../source/run_source';
 
 export function panelsOf(page: LabPage, run: RunSource) {
   const parameters = new Parameters(page);
-  const time = new LabTimeBar(page, () => parameters.changes);
-  time.add(new BuildMenu(page));
-  time.add(new Notes());
+  const build = new BuildMenu(page);
+  const notes = new Notes();
+  const time = new LabTimeBar(page, () => parameters.changes, [build.root, notes.root]);
   return {
+    build,
+    notes,
     parameters,
     plots: new Plots(run),
     energy: new EnergyPanel(run),
@@ -27,5 +29,3 @@ export function panelsOf(page: LabPage, run: RunSource) {
     diverged: new Diverged(page, time.rewind),
   };
 }
-
-export type PanelSet = ReturnType<typeof panelsOf>;

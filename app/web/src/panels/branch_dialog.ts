@@ -26,7 +26,7 @@ export class BranchDialog {
       'visible: translucent in the view, dotted in the plots.';
     const form = element(
       'form',
-      { method: 'dialog' },
+      { method: 'dialog', submit: (event: Event) => this.send(event) },
       this.title,
       element('p.fine', text),
       element('h3', 'Changed parameters'),
@@ -39,10 +39,6 @@ export class BranchDialog {
         element('button.main', { type: 'submit' }, 'Branch'),
       ),
     );
-    form.addEventListener('submit', (event) => {
-      event.preventDefault();
-      this.send();
-    });
     this.more.addEventListener('change', () => this.add(this.more.value));
     this.root.addEventListener('keydown', (event) => event.stopPropagation());
     this.root.append(form);
@@ -87,7 +83,8 @@ export class BranchDialog {
     this.more.focus();
   }
 
-  private send(): void {
+  private send(event: Event): void {
+    event.preventDefault();
     const changes: string[] = [];
     for (const { parameter: { form, unit, path }, control } of this.lines) {
       const value = form === 'choice' ? control.value : parseNumber(control.value, unit);

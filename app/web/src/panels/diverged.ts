@@ -1,6 +1,6 @@
 // Post-mortem of a diverged run: cause, and changes that make it stable.
 import './diverged.css';
-import { button, element, statusIcon } from '../ui/dom';
+import { button, changeDetector, element, statusIcon } from '../ui/dom';
 import { type Divergence, isViewOnly, type StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import type { Rewind } from '../source/playhead';
@@ -9,7 +9,8 @@ const SLOW = 0.1; // playback speed of the last second
 
 export class Diverged implements Panel {
   readonly root = element('section.post-mortem', { role: 'alertdialog', 'aria-label': 'the run has diverged' });
-  private shown = '';
+  private readonly isNew = changeDetector();
+  private readonly isAnother = changeDetector(); // divergence
   private isClosed = false;
   private focusBefore: Element | null = null;
 
@@ -27,16 +28,14 @@ export class Diverged implements Panel {
     const { failure, first, at } = state;
     this.root.classList.toggle('small', at !== null); // while an earlier instant is shown
     const isDisabled = isViewOnly(state);
-    const wanted = JSON.stringify([failure, isDisabled]);
-    if (wanted === this.shown) return;
-    const isNew = failure !== null && this.root.hidden;
+    if (!this.isNew(failure, isDisabled)) return;
+    const hasBegun = failure !== null && this.root.hidden;
     if (!failure) this.restoreFocus();
-    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== failure?.time) this.isClosed = false;
-    this.shown = wanted;
+    if (this.isAnother(failure?.time)) this.isClosed = false;
     this.root.hidden = failure === null || this.isClosed;
     if (!failure) return;
     this.root.replaceChildren(...this.content(failure, first, isDisabled));
-    if (!isNew || this.isClosed) return;
+    if (!hasBegun || this.isClosed) return;
     this.focusBefore = document.activeElement;
     this.root.focus({ preventScroll: true });
   }

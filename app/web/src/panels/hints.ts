@@ -1,6 +1,6 @@
 // Texts over the view: what to look for, what the pointer does, messages, state of the connection.
 import './hints.css';
-import { bullets, button, element } from '../ui/dom';
+import { bullets, button, element, setText } from '../ui/dom';
 import type { SceneMessage } from '../source/link';
 
 const SHOWN_FOR = 4000; // [ms]
@@ -15,7 +15,6 @@ export class Hints {
   readonly banner = element('div.banner', { role: 'status', hidden: '' });
   private message = '';
   private until = 0;
-  private shown = '';
   private scene = NaN; // its number
   private lostAt: number | null = 0;
 
@@ -55,8 +54,7 @@ export class Hints {
 
   // Once per picture.
   tick(now: number, hint: string): void {
-    const text = now < this.until ? this.message : hint;
-    if (text !== this.shown) this.hint.textContent = this.shown = text;
+    setText(this.hint, now < this.until ? this.message : hint);
     const isLost = this.lostAt !== null && now - this.lostAt > PATIENCE;
     if (this.banner.hidden !== isLost) return;
     this.banner.hidden = !isLost;

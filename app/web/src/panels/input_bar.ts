@@ -1,6 +1,6 @@
 // Input of the target robot: source, device force, control among clients.
 import './input_bar.css';
-import { button, changeDetector, element, option, statusLine } from '../ui/dom';
+import { button, changeDetector, element, option, setText, statusLine } from '../ui/dom';
 import { type Command, type Frame, type InputState, isViewOnly, type SceneMessage, type StateMessage } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
@@ -83,8 +83,7 @@ export class InputBar implements Panel {
     this.gripper.setAttribute('aria-label', input.gripper ? 'gripper closed (g)' : 'grip (g)');
     const device = input.source === 'device' && input.device_name;
     const facts = [`${input.mapping} mapping`, device, MODES[input.mode] ?? input.mode].filter((fact) => fact);
-    const text = facts.join(' · ');
-    if (this.facts.textContent !== text) this.facts.textContent = text;
+    setText(this.facts, facts.join(' · '));
     this.showControl(state);
     this.root.hidden = !hasTarget && !this.control.hasChildNodes();
   }

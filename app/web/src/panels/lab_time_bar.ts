@@ -25,14 +25,14 @@ export class LabTimeBar implements Panel, Clock {
   private readonly bar = new TimeBar(this, LABEL, [], [this.step, this.again]);
   private readonly dialog = new BranchDialog(this.page, this.rewind, this.changes);
   readonly root = this.bar.root;
-  private readonly added: Panel[] = [];
   private time: number | null = null; // of the newest frame
   private readonly isNew = changeDetector();
 
-  constructor(private readonly page: LabPage, private readonly changes: () => string[]) {
+  // `menus`: at the end of the bar.
+  constructor(private readonly page: LabPage, private readonly changes: () => string[], menus: Node[]) {
     this.root.append(this.dialog.root);
     this.bar.slider.root.append(this.branchMark, this.end);
-    this.bar.ends.append(this.branch, this.present, saveMenu());
+    this.bar.ends.append(this.branch, this.present, saveMenu(), ...menus);
     this.bar.slider.input.addEventListener('keydown', (event) => {
       const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
       if (!way) return;
@@ -40,12 +40,6 @@ export class LabTimeBar implements Panel, Clock {
       event.preventDefault();
       event.stopPropagation();
     });
-  }
-
-  // A panel at the end of the bar.
-  add(panel: Panel): void {
-    this.added.push(panel);
-    this.bar.ends.append(panel.root);
   }
 
   get speed(): number {
@@ -56,12 +50,7 @@ export class LabTimeBar implements Panel, Clock {
   }
 
   onState(state: StateMessage): void {
-    for (const panel of this.added) panel.onState?.(state);
     this.rewind.follow(state.at);
-  }
-
-  onSelect(body: number | null): void {
-    for (const panel of this.added) panel.onSelect?.(body);
   }
 
   onFrame(frame: Frame): void {

@@ -45,11 +45,6 @@ export abstract class ParameterRow {
     if (typed !== null && now instanceof HTMLInputElement) now.value = typed;
   }
 
-  enable(on: boolean): void {
-    for (const control of this.root.querySelectorAll('input, select, button'))
-      control.toggleAttribute('disabled', !on);
-  }
-
   // With the group: several couplings have a stiffness.
   protected get fullName(): string {
     return `${this.parameter.group}: ${this.parameter.label}`;

@@ -46,8 +46,8 @@ export class Parameters implements Panel {
     this.presets.hidden = !isOurs || state.input.source === ''; // for scenes with a target robot
     const isDisabled = isViewOnly(state);
     this.viewOnly.hidden = !isDisabled;
-    for (const row of this.rows.values()) row.enable(!isDisabled);
-    for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isDisabled;
+    for (const control of this.root.querySelectorAll('input, select, button'))
+      control.toggleAttribute('disabled', isDisabled);
     this.restore.disabled = isDisabled || !state.changes?.length;
   }
 

@@ -1,5 +1,5 @@
 // Time bar below the view: play or pause, speed, instant shown.
-import { button, element, icon, option } from '../ui/dom';
+import { button, element, icon, option, setText } from '../ui/dom';
 import { Slider } from '../ui/slider';
 import './time_bar.css';
 
@@ -60,10 +60,7 @@ export class TimeBar {
   }
 
   show({ time, share, isPlaying, speed, words }: Shown): void {
-    if (time !== null) {
-      const text = `${time.toFixed(3)} s`;
-      if (this.clock.textContent !== text) this.clock.textContent = text;
-    }
+    if (time !== null) setText(this.clock, `${time.toFixed(3)} s`);
     if (this.play.dataset.playing !== String(isPlaying)) {
       this.play.dataset.playing = String(isPlaying);
       this.play.replaceChildren(icon(isPlaying ? 'pause' : 'play'));

@@ -6,22 +6,14 @@ import { button, element, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
 import { branchCurves, type ChartExtras, colorOf, DASH, gapsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
-import { type CsvColumn, savePicture } from './export';
+import { savePicture } from './export';
+import type { Plots } from './plots';
 import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
 import { bucketsOf } from '../source/store';
 
 const HEIGHT = 128;
 const PICTURE = { width: 960, height: 420 };
-
-// The panel, as its charts use it.
-export interface ChartPanel {
-  readonly degrees: boolean;
-  zoom(window: Window | null): void;
-  seek(time: number): void;
-  saveCsv(what: string, columns: CsvColumn[]): void;
-  pictureName(what: string): string;
-}
 
 export class Chart {
   readonly root: HTMLElement;
@@ -41,7 +33,7 @@ export class Chart {
   private readonly marker = element('div.marker');
   private readonly gestures: Gestures;
 
-  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly plots: ChartPanel) {
+  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly plots: Plots) {
     const file = (kind: string, save: () => void) => {
       const made = button(kind, `save ${spec.title} as ${kind}`, save, 'small');
       made.setAttribute('aria-label', `${kind}: ${spec.title}`);

@@ -5,7 +5,7 @@ import type { Panel } from '../panels/panel';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { button, element, icon, option } from '../ui/dom';
-import { Chart, type ChartPanel } from './chart';
+import { Chart } from './chart';
 import type { Window } from './chart_data';
 import { type CsvColumn, fileName, saveCsv } from './export';
 import { type PlotSpec, PlotSpecs } from './specs';
@@ -15,7 +15,7 @@ const DRAW = 33; // [ms]
 const SHARE = 5; // drawing takes at most this fraction of the time, 1/5
 const REVIEW = 1000; // between updates of the list of curves [ms]
 
-export class Plots implements Panel, ChartPanel {
+export class Plots implements Panel {
   readonly root = element('div.plots');
   degrees = true; // else radians
   private record: RunRecord | null = null;

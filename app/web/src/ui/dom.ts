@@ -88,6 +88,11 @@ export function short(value: number | null | undefined, scale = 0): string {
   return (size >= 1e4 ? value.toFixed(0) : value.toPrecision(4)).replaceAll('-', '−');
 }
 
+// An unchanged text is neither laid out nor announced again.
+export function setText(shown: Element, text: string): void {
+  if (shown.textContent !== text) shown.textContent = text;
+}
+
 // "kg m^2" as "kg m²".
 export function unitText(unit: string): string {
   return unit === '1' ? '' : unit.replaceAll('^2', '²').replaceAll('^3', '³');

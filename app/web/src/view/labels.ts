@@ -2,7 +2,7 @@
 // by moving a label by whole lines or to the other side of its point; a leader line connects both. A label
 // without a free place is omitted.
 import type { LabelColumns } from '../protocol/run';
-import { element, svg } from '../ui/dom';
+import { element, setText, svg } from '../ui/dom';
 
 export type Pixel = { x: number; y: number };
 export type Project = (x: number, y: number, z: number) => Pixel | null;
@@ -72,7 +72,7 @@ export class Labels {
 
   private put(item: Item, text: string, box: Box, point: Pixel): void {
     item.text.hidden = false;
-    if (item.text.textContent !== text) item.text.textContent = text;
+    setText(item.text, text);
     item.text.style.transform = `translate(${box.left}px, ${box.top}px)`;
     const isLeft = box.right < point.x;
     const end = { x: isLeft ? box.right + 2 : box.left - 2, y: 0.5 * (box.top + box.bottom) };

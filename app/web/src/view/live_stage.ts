@@ -1,5 +1,5 @@
 // 3-D view of the live run. Draws the newest frame without interpolation, which would delay it by one frame.
-import { element } from '../ui/dom';
+import { element, setText } from '../ui/dom';
 import type { Part } from './painter';
 import type { Overlays } from './view_options';
 import { Stage } from './stage';
@@ -124,8 +124,7 @@ export class LiveStage {
     const at = place && stage.project(...place);
     this.tag.hidden = !at;
     if (!at || body === null) return;
-    const name = this.scene?.bodies[body]?.name ?? '';
-    if (this.tag.textContent !== name) this.tag.textContent = name;
+    setText(this.tag, this.scene?.bodies[body]?.name ?? '');
     this.tag.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
   }
 }
