@@ -12,17 +12,13 @@ namespace twinarm {
 
 struct ModelWithoutFixedJoints {
   Model<double> model;               // same coordinates, velocities and joints' properties
-  std::vector<std::size_t> origin;   // by merged body: its body in the whole model
   std::vector<std::size_t> carrier;  // by body: its merged body; 0: base
   std::vector<Transform<double>> X;  // by body: from its carrier's frame to its own
-  std::vector<Inertia<double>> I;    // by body: inertia in the frame of its carrier
 
   // Joints have at most one degree of freedom.
   explicit ModelWithoutFixedJoints(const Model<double>& whole);
   // From link coordinates of a body's point to coordinates of its carrier.
   Vec3<double> point_of(const Model<double>& whole, std::size_t body, const Vector3& p_L) const;
-  // Inertias of the merged bodies with a factor for each body; empty: 1.
-  std::vector<Inertia<double>> inertias(const std::vector<double>& factor) const;
 };
 
 inline SpringKind kind_of(const BatchSpring& spring) {

@@ -35,17 +35,8 @@ std::vector<double> key_of(const BatchCell& cell) {
   return key;
 }
 
-}  // namespace
-
-class BatchRun::Driver {
- public:
-  virtual ~Driver() = default;
-  virtual void run(std::span<const BatchCell> cells, std::span<BatchResult> out) = 0;
-  virtual std::size_t lanes() const = 0;
-};
-
 template <int N>
-class BatchRun::BatchRunnerN final : public Driver {
+class BatchRunnerN final : public BatchRun::Driver {
  public:
   using S = Batch<N>;
   using Work = BatchWork<S>;
@@ -57,8 +48,7 @@ class BatchRun::BatchRunnerN final : public Driver {
         merged_(*setup.model),
         motion_(setup),
         work_(convert<S>(merged_.model)),
-        loader_(setup_, merged_, motion_, work_),
-        results_(setup_, merged_, motion_, work_) {
+        lanes_(setup_, merged_, motion_, work_) {
     work_.owner = this;
     work_.stopped = [](Work& work, std::size_t lane, std::size_t step) {
       static_cast<BatchRunnerN*>(work.owner)->stop(lane, step);
@@ -99,37 +89,35 @@ class BatchRun::BatchRunnerN final : public Driver {
     work_.motion_stride = motion_.motion_stride;
     work_.energy_stride = motion_.energy_stride;
     work_.lanes_running = count_;
+    lanes_.start();
     for (std::size_t lane = 0; lane < N; ++lane) {
       runs_[lane] = lane < count_;
-      const BatchCell& cell = *cell_[std::min(lane, count_ - 1)];
-      loader_.load(lane, cell);
       if (runs_[lane])
-        loader_.load_step(lane, cell, cell.h);
+        lanes_.load_step(lane, *cell_[lane], cell_[lane]->h);
       else
-        loader_.park(lane);
+        lanes_.park(lane);
     }
-    results_.start();
     const bool shorter = motion_.last_step != cell_[0]->h;
     work_.first = 0;
     work_.last = shorter ? motion_.steps - 1 : motion_.steps;
     kernel_(work_);
     if (shorter && work_.lanes_running > 0) {
       for (std::size_t lane = 0; lane < N; ++lane)
-        if (runs_[lane]) loader_.load_step(lane, *cell_[lane], motion_.last_step);
+        if (runs_[lane]) lanes_.load_step(lane, *cell_[lane], motion_.last_step);
       work_.first = work_.last;
       work_.last = motion_.steps;
       kernel_(work_);
     }
     for (std::size_t lane = 0; lane < count_; ++lane)
-      if (runs_[lane]) results_.store(lane, *cell_[lane], *result_[lane]);
+      if (runs_[lane]) lanes_.store(lane, *result_[lane]);
   }
 
   void stop(std::size_t lane, std::size_t step) {
     if (!runs_[lane]) return;
     runs_[lane] = false;
     --work_.lanes_running;
-    results_.stop(lane, step, *result_[lane]);
-    loader_.park(lane);
+    lanes_.stop(step, *result_[lane]);
+    lanes_.park(lane);
   }
 
   BatchSetup setup_;
@@ -137,14 +125,15 @@ class BatchRun::BatchRunnerN final : public Driver {
   ModelWithoutFixedJoints merged_;
   BatchMotion motion_;
   Work work_;
-  LaneLoader<N> loader_;
-  LaneResults<N> results_;
+  Lanes<N> lanes_;
   std::vector<double> key_;  // of the table in motion_
   std::size_t count_ = 0;    // cells of the batch
   std::array<const BatchCell*, N> cell_{};
   std::array<BatchResult*, N> result_{};
   std::array<bool, N> runs_{};
 };
+
+}  // namespace
 
 BatchRun::BatchRun(const BatchSetup& setup) {
   DiagnosticList faults;
@@ -156,16 +145,10 @@ BatchRun::BatchRun(const BatchSetup& setup) {
 #endif
   if (!driver_) driver_ = std::make_unique<BatchRunnerN<2>>(setup, &generic::run_batch);
 }
-BatchRun::~BatchRun() = default;
-BatchRun::BatchRun(BatchRun&&) noexcept = default;
-BatchRun& BatchRun::operator=(BatchRun&&) noexcept = default;
 
 void BatchRun::run(std::span<const BatchCell> cells, std::span<BatchResult> out) {
   for (const BatchCell& cell : cells) check_step_size(cell.h);
   driver_->run(cells, out);
-}
-std::size_t BatchRun::lanes() const {
-  return driver_->lanes();
 }
 
 namespace {
@@ -252,9 +235,6 @@ std::vector<Diagnostic> batch_faults(const BatchSetup& setup) {
   if (!(setup.duration > 0) || !std::isfinite(setup.duration))
     faults.add("duration", "is " + short_number_text(setup.duration) + " s",
                "give a positive number of seconds", "batch.duration");
-  if (!(setup.bound > 0))
-    faults.add("bound", "is " + short_number_text(setup.bound), "give a positive bound",
-               "batch.bound");
   return faults.faults();
 }
 

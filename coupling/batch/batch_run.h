@@ -1,5 +1,5 @@
 // Batched runs of one coupled robot, one cell of a parameter map per SIMD lane, each with its own
-// gains, masses, step and motion.
+// gains, step and motion.
 //
 // Equivalent to Simulation with linear and torsional couplings (coupling/laws/spring_damper.h) and
 // semi-implicit Euler; results differ by rounding. Cells of equal step, motion and lever arms share
@@ -9,7 +9,6 @@
 // SI units. Cost of a step of the S-103: benchmarks/drivers/bench_map.cpp.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -45,7 +44,6 @@ struct BatchSetup {
   std::vector<std::size_t>
       measured;         // coordinates with tracking errors, relative to the first target
   double duration = 0;  // [s]; the last step may be shorter
-  double bound = 1e3;   // a cell stops if the sum of |q_K - q_D| is not below it
   bool energy = false;  // compute energy_created and input_work_min
 };
 
@@ -58,19 +56,15 @@ struct BatchCell {
   double h = 1e-3;              // [s]
   double speed = 1, delay = 0;  // of all motions: DelayedMotion
   std::vector<Gains> springs;
-  std::vector<double> mass_factor;  // on mass, first moment and inertia; empty: 1 for all
 };
 
 struct BatchResult {
-  static constexpr std::size_t kWindows = 4;
   std::size_t steps = 0;  // steps taken
   bool finished = false;  // false: diverged
   // By measured joint, as tracking_error(); infinite if diverged.
   std::vector<double> max_error, mean_error;
   // By measured joint, of a finished cell: range of the first target.
   std::vector<double> target_lower, target_upper;
-  // Maximum error of all measured joints in each quarter of the run (infinite after divergence).
-  std::array<double, kWindows> window_error{};
   // Residual of the energy balance [J]: change of kinetic, potential and spring energy minus the
   // work of operator, dampers and joint damping (trapezoidal rule); the sum of the rows `numerical`
   // and `coupling/*/implicit` of `twinarm simulate`.
@@ -88,19 +82,20 @@ class BatchRun {
  public:
   // Throws InputError with batch_faults().
   explicit BatchRun(const BatchSetup& setup);
-  ~BatchRun();
-  BatchRun(BatchRun&&) noexcept;
-  BatchRun& operator=(BatchRun&&) noexcept;
-
   // Runs all cells; out has the same size. One instance per thread. Allocates between batches, not
   // in a step. Throws InputError before the first run if a step size is invalid or too small.
   void run(std::span<const BatchCell> cells, std::span<BatchResult> out);
-  std::size_t lanes() const;  // SIMD width of the instruction set
+  std::size_t lanes() const { return driver_->lanes(); }  // SIMD width of the instruction set
+
+  // For one number of lanes.
+  class Driver {
+   public:
+    virtual ~Driver() = default;
+    virtual void run(std::span<const BatchCell> cells, std::span<BatchResult> out) = 0;
+    virtual std::size_t lanes() const = 0;
+  };
 
  private:
-  class Driver;
-  template <int N>
-  class BatchRunnerN;
   std::unique_ptr<Driver> driver_;
 };
 

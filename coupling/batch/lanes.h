@@ -1,7 +1,6 @@
 // Loading cells into the lanes of a batch, and storing the results of each lane.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "coupling/batch/kernel/batch_state.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/forces/spring.h"
+#include "solver/model/convert_model.h"
 #include "solver/spatial/batch.h"
 
 namespace twinarm {
@@ -40,89 +40,6 @@ template <class S>
 double lane_of(const S& all, std::size_t lane) {
   return all[static_cast<int>(lane)];
 }
-
-template <int N>
-class LaneResults {
- public:
-  using S = Batch<N>;
-
-  // All must outlive it.
-  LaneResults(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
-              const BatchMotion& motion, BatchWork<S>& work)
-      : setup_(setup), merged_(merged), motion_(motion), work_(work), one_lane_(merged.model) {
-    work_.has_energy = setup.energy;
-    work_.measured = setup.measured;
-    for (auto* by_joint :
-         {&work_.error_integral, &work_.error_max, &work_.error_last, &work_.window_error_of})
-      by_joint->resize(work_.measured.size());
-  }
-
-  void start() {
-    for (S* sum : {&work_.dissipated_work, &work_.input_work, &work_.input_work_min}) *sum = S(0);
-    work_.window_error.fill(S(0));
-    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
-      const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
-      work_.error_max[j] = S(0);
-      work_.window_error_of[j] = S(e);
-      work_.error_integral[j] = S(0);
-      work_.error_last[j] = S(e);
-    }
-  }
-
-  // Results of a lane that has diverged.
-  void stop(std::size_t lane, std::size_t step, BatchResult& result) const {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    result.steps = step;
-    result.finished = false;
-    result.max_error.assign(work_.measured.size(), kInfinite);
-    result.mean_error.assign(work_.measured.size(), kInfinite);
-    for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
-      result.window_error[q] = step > (q + 1) * motion_.steps / BatchResult::kWindows
-                                   ? lane_of(work_.window_error[q], lane)
-                                   : kInfinite;
-    result.energy_created = kInfinite;
-    result.input_work_min = -kInfinite;
-  }
-  // Results of a finished lane.
-  void store(std::size_t lane, const BatchCell& cell, BatchResult& result) {
-    result.steps = motion_.steps;
-    result.finished = true;
-    result.max_error.clear();
-    result.mean_error.clear();
-    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
-      const double twice = lane_of(work_.error_integral[j], lane);
-      result.max_error.push_back(lane_of(work_.error_max[j], lane));
-      result.mean_error.push_back(0.5 * twice / setup_.duration);
-    }
-    result.target_lower = motion_.low;
-    result.target_upper = motion_.high;
-    for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
-      result.window_error[q] = lane_of(work_.window_error[q], lane);
-    if (setup_.energy) store_energies(lane, cell, result);
-  }
-
- private:
-  void store_energies(std::size_t lane, const BatchCell& cell, BatchResult& result) {
-    one_lane_.I = merged_.inertias(cell.mass_factor);
-    const auto energy = [&](const State<double>& x) {
-      return kinetic_energy(one_lane_, x) + potential_energy(one_lane_, x);
-    };
-    State<double> end = setup_.start;
-    for (std::size_t i = 0; i < end.q.size(); ++i) end.q[i] = lane_of(work_.x.q[i], lane);
-    for (std::size_t i = 0; i < end.qd.size(); ++i) end.qd[i] = lane_of(work_.x.qd[i], lane);
-    result.energy_created = energy(end) - energy(setup_.start) +
-                            lane_of(work_.spring_energy, lane) -
-                            lane_of(work_.spring_energy_at_start, lane) -
-                            lane_of(work_.input_work, lane) + lane_of(work_.dissipated_work, lane);
-    result.input_work_min = lane_of(work_.input_work_min, lane);
-  }
-
-  const BatchSetup& setup_;
-  const ModelWithoutFixedJoints& merged_;
-  const BatchMotion& motion_;
-  BatchWork<S>& work_;
-  Model<double> one_lane_;
-};
 
 inline SpringTime time_of(Discretization discretization) {
   return discretization == Discretization::explicit_       ? SpringTime::start
@@ -167,36 +84,42 @@ void load_spring(BatchWork<S>& work, std::size_t s, std::size_t lane, const Batc
 }
 
 template <int N>
-class LaneLoader {
+class Lanes {
  public:
   using S = Batch<N>;
 
   // All must outlive it.
-  LaneLoader(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
-             const BatchMotion& motion, BatchWork<S>& work)
-      : setup_(setup), merged_(merged), work_(work) {
+  Lanes(const BatchSetup& setup, const ModelWithoutFixedJoints& merged, const BatchMotion& motion,
+        BatchWork<S>& work)
+      : setup_(setup), merged_(merged), motion_(motion), work_(work) {
+    work_.has_energy = setup.energy;
+    work_.measured = setup.measured;
+    for (auto* by_joint : {&work_.error_integral, &work_.error_max, &work_.error_last})
+      by_joint->resize(work_.measured.size());
     prepare_bodies();
-    prepare_springs(motion);
+    prepare_springs();
   }
 
-  // A cell at the start of its run.
-  void load(std::size_t lane, const BatchCell& cell) {
-    set_lane(work_.bound, lane, setup_.bound);
-    set_lane(work_.h_before, lane, 0);
-    for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
-      set_lane(work_.x.q[i], lane, setup_.start.q[i]);
-    for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
-      set_lane(work_.x.qd[i], lane, setup_.start.qd[i]);
-    inertias_[lane] = merged_.inertias(cell.mass_factor);
-    for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
-      set_lane(work_.model.I_own[i], lane, inertias_[lane][i]);
+  // All lanes at the start of a run.
+  void start() {
+    constexpr double kBound = 1e3;  // on the sum of |q_K - q_D|
+    work_.bound = S(kBound);
+    work_.h_before = S(0);
+    work_.x = convert<S>(setup_.start);
+    for (S* sum : {&work_.dissipated_work, &work_.input_work, &work_.input_work_min}) *sum = S(0);
+    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
+      const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
+      work_.error_max[j] = S(e);
+      work_.error_integral[j] = S(0);
+      work_.error_last[j] = S(e);
+    }
   }
   // Values that depend on the step size.
   void load_step(std::size_t lane, const BatchCell& cell, double h) {
     set_lane(work_.h, lane, h);
     for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
       set_lane(work_.forces.armature[i], lane, h * merged_.model.damping[i]);
-    std::vector<Inertia<double>> effective = inertias_[lane];
+    std::vector<Inertia<double>> effective = merged_.model.I;
     for (std::size_t s = 0; s < work_.springs.size(); ++s)
       load_spring(work_, s, lane, setup_.springs[s], cell.springs[s], h,
                   merged_.point_of(*setup_.model, static_cast<std::size_t>(setup_.springs[s].body),
@@ -214,8 +137,8 @@ class LaneLoader {
       set_lane(lane_spring.kp, lane, Vec3<double>{});
     }
     for (S& armature : work_.forces.armature) set_lane(armature, lane, 0);
-    for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
-      set_lane(work_.model.I_effective[i], lane, inertias_[lane][i]);
+    for (std::size_t i = 0; i < merged_.model.I.size(); ++i)
+      set_lane(work_.model.I_effective[i], lane, merged_.model.I[i]);
     set_lane(work_.h, lane, 0);
     set_lane(work_.bound, lane, std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
@@ -223,10 +146,37 @@ class LaneLoader {
     for (S& qd : work_.x.qd) set_lane(qd, lane, 0);
   }
 
+  // Results of a lane that has diverged.
+  void stop(std::size_t step, BatchResult& result) const {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    result.steps = step;
+    result.finished = false;
+    result.max_error.assign(work_.measured.size(), kInfinite);
+    result.mean_error.assign(work_.measured.size(), kInfinite);
+    result.energy_created = kInfinite;
+    result.input_work_min = -kInfinite;
+  }
+  // Results of a finished lane.
+  void store(std::size_t lane, BatchResult& result) const {
+    result.steps = motion_.steps;
+    result.finished = true;
+    result.max_error.clear();
+    result.mean_error.clear();
+    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
+      const double twice = lane_of(work_.error_integral[j], lane);
+      result.max_error.push_back(lane_of(work_.error_max[j], lane));
+      result.mean_error.push_back(0.5 * twice / setup_.duration);
+    }
+    result.target_lower = motion_.low;
+    result.target_upper = motion_.high;
+    if (setup_.energy) store_energies(lane, result);
+  }
+
  private:
   void prepare_bodies() {
     const std::size_t n = merged_.model.parent.size();
-    work_.model.I_own.resize(n);
+    for (const Inertia<double>& inertia : merged_.model.I)
+      work_.model.I_own.push_back(convert<S>(inertia));
     work_.model.I_effective.resize(n);
     work_.E.resize(n);
     work_.o.resize(n);
@@ -235,7 +185,7 @@ class LaneLoader {
     work_.frames.assign(n, Frame::none);
     for (const double b : merged_.model.damping) work_.has_damping |= b != 0;
   }
-  void prepare_springs(const BatchMotion& motion) {
+  void prepare_springs() {
     for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
       const BatchSpring& spring = setup_.springs[s];
       const auto body = static_cast<std::size_t>(spring.body);
@@ -244,8 +194,8 @@ class LaneLoader {
       lane_spring.body = merged_.carrier[body];
       lane_spring.iq = setup_.model->iq[body];
       lane_spring.iv = setup_.model->iv[body];
-      lane_spring.motion = motion.places[s].motion;
-      lane_spring.energy = motion.places[s].energy;
+      lane_spring.motion = motion_.places[s].motion;
+      lane_spring.energy = motion_.places[s].energy;
       lane_spring.time = time_of(spring.discretization);
       work_.springs.push_back(lane_spring);
       const bool at_joint = lane_spring.kind == SpringKind::joint;
@@ -274,10 +224,24 @@ class LaneLoader {
     return merged_.model.joint[i] == JointType::revolute && E == Matrix3::Identity();
   }
 
+  void store_energies(std::size_t lane, BatchResult& result) const {
+    const auto energy = [&](const State<double>& x) {
+      return kinetic_energy(merged_.model, x) + potential_energy(merged_.model, x);
+    };
+    State<double> end = setup_.start;
+    for (std::size_t i = 0; i < end.q.size(); ++i) end.q[i] = lane_of(work_.x.q[i], lane);
+    for (std::size_t i = 0; i < end.qd.size(); ++i) end.qd[i] = lane_of(work_.x.qd[i], lane);
+    result.energy_created = energy(end) - energy(setup_.start) +
+                            lane_of(work_.spring_energy, lane) -
+                            lane_of(work_.spring_energy_at_start, lane) -
+                            lane_of(work_.input_work, lane) + lane_of(work_.dissipated_work, lane);
+    result.input_work_min = lane_of(work_.input_work_min, lane);
+  }
+
   const BatchSetup& setup_;
   const ModelWithoutFixedJoints& merged_;
+  const BatchMotion& motion_;
   BatchWork<S>& work_;
-  std::array<std::vector<Inertia<double>>, N> inertias_;  // by lane and merged body
 };
 
 }  // namespace twinarm

@@ -134,7 +134,7 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
     sum = sum + e;
     b.error_integral[j] = b.error_integral[j] + b.h * (e + b.error_last[j]);
     b.error_last[j] = e;
-    b.window_error_of[j] = larger(b.window_error_of[j], e);
+    b.error_max[j] = larger(b.error_max[j], e);
   }
   const auto outside = ~(sum < b.bound);  // NaN too
   if (!any_lane(outside)) return;
@@ -142,31 +142,16 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
     if (outside[lane]) b.stopped(b, lane, n + 1);
 }
 
-// Merges the maximum errors of a quarter into those of the run.
-template <class S>
-void end_window(BatchWork<S>& b, std::size_t window) {
-  for (std::size_t j = 0; j < b.measured.size(); ++j) {
-    b.error_max[j] = larger(b.error_max[j], b.window_error_of[j]);
-    b.window_error[window] = larger(b.window_error[window], b.window_error_of[j]);
-    b.window_error_of[j] = S(0);
-  }
-}
-
 template <class S>
 void run_steps(BatchWork<S>& b) {
-  std::size_t n = b.first;
-  for (std::size_t window = 0; window < b.kWindows; ++window) {
-    const std::size_t end = std::min(b.last, (window + 1) * b.steps / b.kWindows);
-    for (; n < end && b.lanes_running > 0; ++n) {
-      const double* row = b.motion + n * b.motion_stride;
-      if (b.has_joint_springs || b.has_damping) apply_joint_springs(b, row);
-      b.model.I = b.model.I_own.data();
-      aba(b.model, b.x, b.forces, b.w, LaneSprings<S>{b, row, n});
-      integrate(b);
-      b.h_before = b.h;
-      measure(b, n);
-    }
-    end_window(b, window);
+  for (std::size_t n = b.first; n < b.last && b.lanes_running > 0; ++n) {
+    const double* row = b.motion + n * b.motion_stride;
+    if (b.has_joint_springs || b.has_damping) apply_joint_springs(b, row);
+    b.model.I = b.model.I_own.data();
+    aba(b.model, b.x, b.forces, b.w, LaneSprings<S>{b, row, n});
+    integrate(b);
+    b.h_before = b.h;
+    measure(b, n);
   }
   if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
   b.model.I = b.model.I_own.data();  // powers at the end, with the last row of the motion

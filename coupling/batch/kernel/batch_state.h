@@ -3,7 +3,6 @@
 // so the table of the KVR's motion.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -70,8 +69,6 @@ enum class Frame : char { none, general, aligned, planar };
 
 template <class S>
 struct BatchWork {
-  static constexpr std::size_t kWindows = 4;
-
   LaneModel<S> model;
   State<S> x;
   Forces<S> forces;  // f_ext stays zero
@@ -98,8 +95,6 @@ struct BatchWork {
   // By measured joint.
   std::vector<std::size_t> measured;                     // coordinates
   std::vector<S> error_integral, error_max, error_last;  // twice the integral
-  std::vector<S> window_error_of;
-  std::array<S, kWindows> window_error;
   // Work of the operator and of all dampers (trapezoidal rule), and spring energy [J].
   S input_work, input_work_min, dissipated_work, spring_energy, spring_energy_at_start;
   S operator_power,
