@@ -30,8 +30,7 @@ ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& mod
                                                         const State<double>& x,
                                                         const Forces<double>& forces) {
   const auto n = static_cast<Eigen::Index>(model.nv);
-  ForwardDynamicsDerivatives out{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n),
-                                 Eigen::MatrixXd(n, n)};
+  ForwardDynamicsDerivatives out{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
   const Model<D> dual_model = convert<D>(model);
   const Forces<D> dual_forces = convert_forces(dual_model, forces);
   Workspace<D> w(dual_model);
@@ -39,17 +38,15 @@ ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& mod
   const auto differentiate = [&](Eigen::MatrixXd& derivative, auto&& seed) {
     for (std::size_t first = 0; first < model.nv; first += kDirections) {
       State<D> at = convert<D>(x);
-      Forces<D> applied = dual_forces;
       std::vector<D> delta(model.nv);
       const std::size_t count = std::min(kDirections, model.nv - first);
-      for (std::size_t k = 0; k < count; ++k)
-        seed(at, applied, delta, first + k, static_cast<int>(k));
+      for (std::size_t k = 0; k < count; ++k) seed(at, delta, first + k, static_cast<int>(k));
       for (std::size_t i = 1; i < model.parent.size(); ++i)
         visit_joint(dual_model, i, [&](auto joint) {
           joint.integrate(at.q.data() + model.iq[i], delta.data() + model.iv[i],
                           at.q.data() + model.iq[i]);
         });
-      aba(dual_model, at, applied, w);
+      aba(dual_model, at, dual_forces, w);
       for (std::size_t row = 0; row < model.nv; ++row)
         for (std::size_t k = 0; k < count; ++k)
           derivative(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(first + k)) =
@@ -57,15 +54,10 @@ ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& mod
     }
   };
   using Numbers = std::vector<D>;
-  differentiate(out.dq, [](State<D>&, Forces<D>&, Numbers& delta, std::size_t dof, int k) {
-    delta[dof].d[k] = 1;
-  });
-  differentiate(out.dqd, [](State<D>& at, Forces<D>&, Numbers&, std::size_t dof, int k) {
-    at.qd[dof].d[k] = 1;
-  });
-  differentiate(out.dtau, [](State<D>&, Forces<D>& applied, Numbers&, std::size_t dof, int k) {
-    applied.tau[dof].d[k] = 1;
-  });
+  differentiate(out.dq,
+                [](State<D>&, Numbers& delta, std::size_t dof, int k) { delta[dof].d[k] = 1; });
+  differentiate(out.dqd,
+                [](State<D>& at, Numbers&, std::size_t dof, int k) { at.qd[dof].d[k] = 1; });
   return out;
 }
 

@@ -10,7 +10,7 @@ namespace twinarm {
 // nv x nv each. Column k of dq is d qdd / ds for q exp(s e_k) at s = 0 (for vector joints the
 // partial derivative). External wrenches are fixed in body axes.
 struct ForwardDynamicsDerivatives {
-  Eigen::MatrixXd dq, dqd, dtau;
+  Eigen::MatrixXd dq, dqd;
 };
 // Allocates. forces.armature and forces.added_inertia are constants.
 ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& model,
