@@ -3,11 +3,16 @@
 #include <cmath>
 
 namespace twinarm {
+namespace {
 
-DesktopInput::DesktopInput(const OmniParameters& omni, const DesktopInputSettings& settings)
-    : omni_(omni), settings_(settings), newest_(Goal{}) {
-  goal_.p = omni_position(omni_, settings_.start);
-  std::copy_n(settings_.start.begin() + 3, 3, goal_.gimbal.begin());
+constexpr double kSpeed = 0.1, kAngularSpeed = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
+constexpr double kDeadZone = 0.08;                   // of axes
+
+}  // namespace
+
+DesktopInput::DesktopInput(const OmniParameters& omni) : omni_(omni), newest_(Goal{}) {
+  goal_.p = omni_position(omni_, kStart);
+  std::copy_n(kStart.begin() + 3, 3, goal_.gimbal.begin());
   publish();
 }
 
@@ -46,7 +51,7 @@ void DesktopInput::publish() noexcept {
   for (std::size_t j = 0; j < 6; ++j) {
     const double keys = (keys_[j][1] ? 1.0 : 0.0) - (keys_[j][0] ? 1.0 : 0.0);
     const double rate = std::clamp(keys + axes_[j], -1.0, 1.0);
-    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.angular_speed);
+    goal_.rate[j] = rate * (j < 3 ? kSpeed : kAngularSpeed);
   }
   newest_.write(goal_);
 }
@@ -62,7 +67,7 @@ void DesktopInput::axes(const std::array<double, 6>& rates) noexcept {
   update([&] {
     for (std::size_t j = 0; j < 6; ++j) {
       const double rate = std::isfinite(rates[j]) ? std::clamp(rates[j], -1.0, 1.0) : 0.0;
-      const double beyond = (std::abs(rate) - settings_.dead_zone) / (1 - settings_.dead_zone);
+      const double beyond = (std::abs(rate) - kDeadZone) / (1 - kDeadZone);
       axes_[j] = beyond > 0 ? std::copysign(beyond, rate) : 0.0;
     }
   });

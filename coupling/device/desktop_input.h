@@ -20,15 +20,10 @@ namespace twinarm {
 // Axes of keys, sticks and a space mouse.
 enum class DeviceAxis { right, up, toward, yaw, pitch, roll };
 
-struct DesktopInputSettings {
-  double speed = 0.1, angular_speed = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
-  double dead_zone = 0.08;                  // of axes
-  OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
-};
-
 class DesktopInput final : public OperatorMotion {
  public:
-  explicit DesktopInput(const OmniParameters& omni, const DesktopInputSettings& settings = {});
+  static constexpr OmniAngles kStart{0, 0.7, 0.2, 0, 0.6, 0};
+  explicit DesktopInput(const OmniParameters& omni);
 
   // For the event thread. Values that are not finite are ignored.
   // Sets the point, device axes [m].
@@ -77,7 +72,6 @@ class DesktopInput final : public OperatorMotion {
   }
 
   OmniParameters omni_;
-  DesktopInputSettings settings_;
   Goal goal_;                                  // of the event thread
   std::array<std::array<bool, 2>, 6> keys_{};  // pressed, by axis and direction
   std::array<double, 6> axes_{};

@@ -3,9 +3,9 @@
 // the device is back it continues without a jump.
 //
 //   live      the device moves the target robot
-//   held      no data for less than `timeout`: the target stays
+//   held      no data for less than kTimeout: the target stays
 //   released  no data for longer: the target relaxes to the robot, d(q_K - q_D)/dt = -(q_K -
-//   q_D)/slack
+//   q_D)/kSlack
 #pragma once
 
 #include <cmath>
@@ -19,9 +19,6 @@ class DeviceWatchdog {
  public:
   enum class Mode { live, held, released };
 
-  explicit DeviceWatchdog(double timeout = 1.0, double slack = 0.2)  // [s]
-      : timeout_(timeout), slack_(slack) {}
-
   // One tick of h [s]. Updates `target`; q_D: driven joints of the DVR.
   void tick(const DeviceState& device, DeviceMapping& mapping, const std::vector<double>& q_D,
             double h, MappedTarget& target) noexcept {
@@ -34,8 +31,8 @@ class DeviceWatchdog {
     }
     if (mode_ == Mode::live) ++silences_;
     silent_ += h;
-    mode_ = silent_ < timeout_ ? Mode::held : Mode::released;
-    const double left = std::exp(-h / slack_);
+    mode_ = silent_ < kTimeout ? Mode::held : Mode::released;
+    const double left = std::exp(-h / kSlack);
     for (std::size_t j = 0; j < target.q.size(); ++j) {
       target.qd[j] = 0;
       if (mode_ == Mode::released) target.q[j] = q_D[j] + left * (target.q[j] - q_D[j]);
@@ -45,7 +42,8 @@ class DeviceWatchdog {
   long silences() const { return silences_; }
 
  private:
-  double timeout_, slack_, silent_ = 0;
+  static constexpr double kTimeout = 1.0, kSlack = 0.2;  // [s]
+  double silent_ = 0;
   Mode mode_ = Mode::live;
   long silences_ = 0;
 };

@@ -6,7 +6,6 @@
 // axes: x to the right, y up, z to the user, origin as in the published kinematics.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
 

@@ -32,7 +32,7 @@ void move(DesktopInput& hand, const Vector3& by, double t = 0) {
 TEST_CASE("desktop input: the stylus moves to a point, and rotates by angles") {
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(0, 1));
-  CHECK((start - omni_position({}, DesktopInputSettings{}.start)).norm() < 1e-12);
+  CHECK((start - omni_position({}, DesktopInput::kStart)).norm() < 1e-12);
   hand.place(start + Vector3(0.010, 0.005, -0.008));
   CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, -0.008)).norm() < 1e-12);
   hand.rotate_stylus({0.6, -0.3, -0.12});
