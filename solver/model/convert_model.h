@@ -21,29 +21,16 @@ auto convert_all(const std::vector<From>& all) {
 template <class T>
 Model<T> convert(const Model<double>& m) {
   Model<T> out;
-  out.body_name = m.body_name;
-  out.joint_name = m.joint_name;
-  out.by_body_name = m.by_body_name;
-  out.by_joint_name = m.by_joint_name;
-  out.parent = m.parent;
-  out.last_child = m.last_child;
-  out.joint = m.joint;
+  static_cast<ModelTree&>(out) = m;
   out.pitch = convert_all<T>(m.pitch);
-  out.iq = m.iq;
-  out.iv = m.iv;
-  out.ip = m.ip;
   out.Xtree = convert_all<Constant<T>>(m.Xtree);
   out.I = convert_all<Constant<T>>(m.I);
   out.R_BL = convert_all<T>(m.R_BL);
   out.gravity = convert<T>(m.gravity);
-  out.nq = m.nq;
-  out.nv = m.nv;
-  out.np = m.np;
   out.armature = convert_all<T>(m.armature);
   out.damping = convert_all<T>(m.damping);
   out.coulomb_plus = convert_all<T>(m.coulomb_plus);
   out.coulomb_minus = convert_all<T>(m.coulomb_minus);
-  out.mimics = m.mimics;
   return out;
 }
 template <class T>

@@ -18,12 +18,6 @@ VecN<S, n> operator-(const VecN<S, n>& a, const VecN<S, n>& b) {
   return difference;
 }
 template <class S, std::size_t n>
-VecN<S, n> operator+(const VecN<S, n>& a, const VecN<S, n>& b) {
-  VecN<S, n> sum;
-  for (std::size_t k = 0; k < n; ++k) sum[k] = a[k] + b[k];
-  return sum;
-}
-template <class S, std::size_t n>
 VecN<S, n> unit_vector(std::size_t k) {
   VecN<S, n> e;
   for (std::size_t i = 0; i < n; ++i) e[i] = S(i == k ? 1 : 0);

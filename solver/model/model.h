@@ -54,8 +54,8 @@ inline int find_name(const std::string& name, const std::vector<std::string>& na
   return found != order.end() && name_of(*found) == name ? *found : -1;
 }
 
-template <class S>
-struct Model {
+// What does not depend on the scalar.
+struct ModelTree {
   std::vector<std::string> body_name;            // link name in the user's file
   std::vector<std::string> joint_name;           // joint of the body; empty for the base
   std::vector<int> by_body_name, by_joint_name;  // bodies without the base, ascending by name
@@ -63,18 +63,8 @@ struct Model {
   std::vector<int> last_child;  // child of highest number, 0 for a leaf; not in RBDA: IA_p starts
                                 // from its last child's contribution without a copy
   std::vector<JointType> joint;
-  std::vector<S> pitch;                   // of screw joints [m/rad]; 0 for all others
-  std::vector<std::size_t> iq, iv, ip;    // first index of joint i in q, qd and State::prescribed
-  Constants<Transform, S> Xtree;          // XT_i: parent's body frame to joint i at q_i = identity
-  Constants<Inertia, S> I;                // about the body's origin, body axes [kg, kg m, kg m^2]
-  std::vector<Mat3<S>> R_BL;              // from link axes to body axes
-  Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
+  std::vector<std::size_t> iq, iv, ip;  // first index of joint i in q, qd and State::prescribed
   std::size_t nq = 0, nv = 0, np = 0;
-
-  // By velocity.
-  std::vector<S> armature;                     // rotor inertia reflected to the joint [kg m^2, kg]
-  std::vector<S> damping;                      // viscous [N m s/rad, N s/m]
-  std::vector<S> coulomb_plus, coulomb_minus;  // Coulomb friction for qd > 0, qd < 0 [N m, N]
   std::vector<Mimic> mimics;
 
   std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
@@ -87,6 +77,20 @@ struct Model {
   int find_joint(const std::string& name) const {
     return find_name(name, joint_name, by_joint_name);
   }
+};
+
+template <class S>
+struct Model : ModelTree {
+  std::vector<S> pitch;                   // of screw joints [m/rad]; 0 for all others
+  Constants<Transform, S> Xtree;          // XT_i: parent's body frame to joint i at q_i = identity
+  Constants<Inertia, S> I;                // about the body's origin, body axes [kg, kg m, kg m^2]
+  std::vector<Mat3<S>> R_BL;              // from link axes to body axes
+  Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
+
+  // By velocity.
+  std::vector<S> armature;                     // rotor inertia reflected to the joint [kg m^2, kg]
+  std::vector<S> damping;                      // viscous [N m s/rad, N s/m]
+  std::vector<S> coulomb_plus, coulomb_minus;  // Coulomb friction for qd > 0, qd < 0 [N m, N]
 };
 
 // Calls f with the joint struct of body i.

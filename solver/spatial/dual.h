@@ -53,11 +53,6 @@ struct alignas(N * sizeof(double)) Dual {
   Dual() = default;
   Dual(double x) : value(x) {}  // NOLINT: a constant
   Dual(double x, const Tangents<N>& derivatives) : d(derivatives), value(x) {}
-  static Dual variable(double x, int direction) {
-    Dual a(x);
-    a.d[direction] = 1;
-    return a;
-  }
 
   TWINARM_DUAL_OPERATION friend Dual operator+(const Dual& a, const Dual& b) {
     return {a.value + b.value, a.d + b.d};

@@ -230,9 +230,6 @@ struct ArticulatedInertia {
   friend Force<S> operator*(const ArticulatedInertia& a, const Motion<S>& b) {
     return {a.I * b.w + a.H * b.v, a.M * b.v + transpose_times(a.H, b.w)};
   }
-  friend ArticulatedInertia operator+(const ArticulatedInertia& a, const ArticulatedInertia& b) {
-    return {a.I + b.I, a.H + b.H, a.M + b.M};
-  }
   friend ArticulatedInertia operator-(const ArticulatedInertia& a, const ArticulatedInertia& b) {
     return {a.I - b.I, a.H - b.H, a.M - b.M};
   }
