@@ -78,10 +78,6 @@ struct TangentStiffness {
 // Along the first `count` velocities; the other columns are 0.
 TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
                                    const AppliedForces& applied, std::size_t count);
-inline TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                          const AppliedForces& applied) {
-  return tangent_stiffness(model, x, applied, model.nv);
-}
 
 // Eigenvalues of M^-1 K, ascending: squares of the natural frequencies [rad^2/s^2].
 Eigen::VectorXd squared_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K);

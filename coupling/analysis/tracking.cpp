@@ -1,7 +1,6 @@
 #include "coupling/analysis/tracking.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -123,11 +122,6 @@ double peak_after_jump(double V, double omega, double zeta) {
   if (std::abs(zeta - 1) < 1e-9) return V / omega / std::exp(1.0);
   if (zeta < 1) return V / omega * std::exp(-zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));
   return V / omega * std::exp(-zeta * std::acosh(zeta) / std::sqrt(zeta * zeta - 1));
-}
-
-const char* name_of(MotionProfile move) {
-  constexpr std::array names{"constant speed", "cubic", "quintic", "cosine", "bang-bang"};
-  return names[static_cast<std::size_t>(move)];
 }
 
 std::vector<ProfileSegment> segments_of(MotionProfile move, double D, double T) {

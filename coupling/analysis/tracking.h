@@ -101,7 +101,6 @@ enum class MotionProfile {
   cosine,     // D (1 - cos pi s) / 2
   bang_bang,  // constant acceleration, then deceleration
 };
-const char* name_of(MotionProfile move);
 
 // A segment of a profile: from `start` on, with s = t - start and W = pi/time, velocity and
 // acceleration are sum_n power[n] s^n + c cos(W s) + d sin(W s). The last segment is the rest after

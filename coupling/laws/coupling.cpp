@@ -31,10 +31,14 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
   faults.check();
 }
 
-Eigen::MatrixXd Coupling::joint_row(int body) const {
-  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(model_.nv));
-  row(0, static_cast<Eigen::Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
-  return row;
+Coupling::JointSpace Coupling::joint_space_of_joints() const {
+  JointSpace sum(model_.nv);
+  for (const Spring& spring : springs_) {
+    const auto dof = static_cast<Eigen::Index>(model_.iv[static_cast<std::size_t>(spring.body)]);
+    sum.K(dof, dof) += spring.k;
+    sum.B(dof, dof) += spring.b;
+  }
+  return sum;
 }
 
 void Coupling::check_one_dof() const {

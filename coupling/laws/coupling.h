@@ -51,8 +51,8 @@ class Coupling : public SpringSource {
   virtual JointSpace joint_space(const Kinematics& k) const = 0;
 
  protected:
-  // d(coordinate of the body's joint)/dq, 1 x nv.
-  Eigen::MatrixXd joint_row(int body) const;
+  // Of springs on joints of one degree of freedom.
+  JointSpace joint_space_of_joints() const;
   // Throws InputError for springs on joints with more or less than one degree of freedom.
   void check_one_dof() const;
 

@@ -60,12 +60,10 @@ void SpringDamperCoupling::apply_joint_spring(std::size_t s, const Discretizatio
 Coupling::JointSpace SpringDamperCoupling::joint_space(const Kinematics& k) const {
   if (space_ == Space::point) return joint_space_of_points(model_, k, springs_);
   if (space_ == Space::frame) return joint_space_of_frames(model_, k, springs_);
+  if (space_ == Space::joint) return joint_space_of_joints();
   JointSpace sum(model_.nv);
   for (const Spring& spring : springs_)
-    if (space_ == Space::orientation)
-      sum.add(spring.k, spring.b, rotation_jacobian(model_, k, spring.body));
-    else
-      sum.add(spring.k, spring.b, joint_row(spring.body));
+    sum.add(spring.k, spring.b, rotation_jacobian(model_, k, spring.body));
   return sum;
 }
 

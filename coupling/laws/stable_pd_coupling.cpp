@@ -40,11 +40,7 @@ class StablePd final : public Coupling {
     }
   }
   bool needs_semi_implicit() const override { return true; }
-  JointSpace joint_space(const Kinematics&) const override {
-    JointSpace sum(model_.nv);
-    for (const Spring& spring : springs_) sum.add(spring.k, spring.b, joint_row(spring.body));
-    return sum;
-  }
+  JointSpace joint_space(const Kinematics&) const override { return joint_space_of_joints(); }
 };
 
 }  // namespace

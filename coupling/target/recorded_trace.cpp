@@ -184,10 +184,6 @@ class TraceReader {
       quality.max_gap = intervals.back();
       quality.gap_start = samples[n - 1].t;
     }
-    measure_intervals(std::move(intervals));
-  }
-  void measure_intervals(std::vector<double> intervals) {
-    TraceQuality& quality = trace_.quality_;
     const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
     std::nth_element(intervals.begin(), middle, intervals.end());
     quality.interval = *middle;

@@ -141,7 +141,7 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
         for (const MotionProfile move :
              {MotionProfile::ramp, MotionProfile::cubic, MotionProfile::quintic,
               MotionProfile::cosine, MotionProfile::bang_bang}) {
-          CAPTURE(std::string(name_of(move)));
+          CAPTURE(static_cast<int>(move));
           const ProfileError closed(
               move, D, T, omega, zeta,
               absolute ? ProfileError::Damper::absolute : ProfileError::Damper::relative);

@@ -45,10 +45,12 @@ TEST_CASE("the geometric stiffness of a point spring is minus the derivative of 
   const Vector3 p_L(0.2, -0.1, 0.3), target = k.position(5, p_L) + Vector3(0.1, 0.2, -0.15);
   const double stiffness = 700, damping = 9;
   const TangentStiffness found = tangent_stiffness(
-      model, x, [&](const State<double>&, const Kinematics& at, Forces<double>& forces) {
+      model, x,
+      [&](const State<double>&, const Kinematics& at, Forces<double>& forces) {
         const Vector3 p = at.position(5, p_L);
         add_point_force(at, 5, p, stiffness * (target - p) - damping * at.velocity(5, p), forces);
-      });
+      },
+      model.nv);
 
   const Vector3 p = k.position(5, p_L), F = stiffness * (target - p);
   const Eigen::Matrix3Xd J = point_jacobian(model, k, 5, p), w = rotation_jacobian(model, k, 5);
@@ -67,12 +69,13 @@ TEST_CASE("a point spring of one joint with error e and target radius R_K has k 
   const double r = 0.4, R_K = 0.7, k = 300, e = 0.5;
   const Model<double> model = one_joint(JointType::revolute, 1);
   const Vector3 target(R_K * std::cos(e), R_K * std::sin(e), 0);
-  const TangentStiffness found =
-      tangent_stiffness(model, State<double>(model),
-                        [&](const State<double>&, const Kinematics& at, Forces<double>& forces) {
-                          const Vector3 p = at.position(1, {r, 0, 0});
-                          add_point_force(at, 1, p, k * (target - p), forces);
-                        });
+  const TangentStiffness found = tangent_stiffness(
+      model, State<double>(model),
+      [&](const State<double>&, const Kinematics& at, Forces<double>& forces) {
+        const Vector3 p = at.position(1, {r, 0, 0});
+        add_point_force(at, 1, p, k * (target - p), forces);
+      },
+      model.nv);
   CHECK(found.K(0, 0) == doctest::Approx(k * r * R_K * std::cos(e)).epsilon(1e-9));
 }
 
@@ -87,9 +90,11 @@ TEST_CASE("at zero error it is joint_space, for torsional and linear couplings")
     system.kvr.set_pose(pose);
     system.coupling->begin_step(system.simulation.kinematics(), 0, 1e-9);
     const TangentStiffness found = tangent_stiffness(
-        model, pose, [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+        model, pose,
+        [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
           system.coupling->add_forces(x, k, forces);
-        });
+        },
+        model.nv);
     Kinematics k(model);
     forward_kinematics(model, pose, k);
     const Coupling::JointSpace space = system.coupling->joint_space(k);

@@ -34,7 +34,7 @@ class MovingHand final : public OperatorMotion {
     return hand;
   }
   double duration() const override { return T_; }
-  std::string description() const override { return name_of(move_); }
+  std::string description() const override { return "a motion profile"; }
 
  private:
   std::pair<double, double> along(double s, bool first_half) const {
@@ -99,7 +99,7 @@ TEST_CASE(
         const ProfileError error(move, kTurn, 1, omega, zeta);
         const Deviation run = run_behind(move, omega, zeta, TargetRates::from_operator,
                                          [&](double t) { return error.at(t); });
-        CAPTURE(name_of(move));
+        CAPTURE(static_cast<int>(move));
         CAPTURE(zeta);
         CAPTURE(omega);
         CHECK(run.largest < 1e-3 * run.peak);
@@ -113,7 +113,7 @@ TEST_CASE("with an absolute damper as well, with the steady-state error 2 z v/w"
       const ProfileError error(move, kTurn, 1, 50, zeta, ProfileError::Damper::absolute);
       const Deviation run =
           run_behind(move, 50, zeta, TargetRates::none, [&](double t) { return error.at(t); });
-      CAPTURE(name_of(move));
+      CAPTURE(static_cast<int>(move));
       CAPTURE(zeta);
       CHECK(run.largest < 1e-3 * run.peak);
     }
