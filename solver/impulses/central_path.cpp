@@ -20,7 +20,6 @@
 #include <limits>
 
 #include "solver/impulses/impulse_solver.h"
-#include "solver/impulses/ipm_equations.h"
 #include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm {

@@ -212,7 +212,7 @@ void ImpulseSolver::update_multipliers() {
 // iterate with a smaller rho, which keeps the inner solutions closer to the start. `damped`: also
 // reduces rho after Newton steps with differentiated shift diverge (Levenberg-Marquardt).
 void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report) {
-  int newton = 0, iterations = 0;
+  int newton = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
   double max_rho = kDefaultMaxRho;
   for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
@@ -230,7 +230,6 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
       update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
       residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
     }
-    report.outer_iterations = std::max(report.outer_iterations, ++iterations);
     report.newton = std::max(report.newton, newton);
     if (residual <= 0.3 * tolerance) return;
     if (residual < best) {

@@ -32,10 +32,10 @@ namespace twinarm {
 struct ImpulseReport {
   int islands = 0, solved = 0;  // solved: islands whose initial guess was not accepted
   // Maximum over the islands:
-  int outer_iterations = 0, newton = 0;  // augmented-Lagrangian iterations, Newton steps
-  int interior = 0;                      // iterations of interior_point.cpp
-  int path = 0;                          // steps of central_path.cpp on one path
-  double residual = 0;                   // maximum law_residual() over the constraints [m/s, rad/s]
+  int newton = 0;       // Newton steps
+  int interior = 0;     // iterations of interior_point.cpp
+  int path = 0;         // steps of central_path.cpp on one path
+  double residual = 0;  // maximum law_residual() over the constraints [m/s, rad/s]
   bool converged = true;
 };
 

@@ -57,7 +57,6 @@ double ImpulseSolver::warm_start_newton(ImpulseReport& report) {
     failures += !(residual < 0.5 * before);
     ++steps;
   }
-  report.outer_iterations = std::max(report.outer_iterations, steps);
   report.newton = std::max(report.newton, steps);
   return residual;
 }

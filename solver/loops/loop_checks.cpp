@@ -14,6 +14,9 @@ std::string text(const Parts&... parts) {
   (out << ... << parts);
   return out.str();
 }
+std::string called(const LoopClosure& loop) {
+  return "loop '" + loop.name + "'";
+}
 bool is_frame(const Pose& X) {
   return X.p.allFinite() && (X.R * X.R.transpose() - Matrix3::Identity()).norm() < 1e-9 &&
          X.R.determinant() > 0;
@@ -42,7 +45,7 @@ bool moves_between(const Model<double>& model, int a, int b) {
 
 class OneLoop {
  public:
-  OneLoop(const Model<double>& model, const LoopClosure& loop, std::vector<Diagnostic>& faults)
+  OneLoop(const Model<double>& model, const LoopClosure& loop, DiagnosticList& faults)
       : model_(model), loop_(loop), faults_(faults) {}
 
   void check() {
@@ -62,8 +65,7 @@ class OneLoop {
 
  private:
   void add(std::string problem, std::string fix) {
-    faults_.push_back(
-        {"", 0, "loop '" + loop_.name + "'", std::move(problem), std::move(fix), "loop.ends"});
+    faults_.add(called(loop_), std::move(problem), std::move(fix), "loop.ends");
   }
   bool is_body(int body, const char* end) {
     if (body >= 0 && body < model_.body_count()) return true;
@@ -89,12 +91,12 @@ class OneLoop {
   const Model<double>& model_;
   const LoopClosure& loop_;
   const LoopBetween ends_ = facts_of(loop_.type).ends;
-  std::vector<Diagnostic>& faults_;
+  DiagnosticList& faults_;
 };
 
 // By loop: its errors, including duplicates of earlier loops.
-std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
-                                                    const std::vector<LoopClosure>& loops) {
+std::vector<DiagnosticList> faults_by_loop(const Model<double>& model,
+                                           const std::vector<LoopClosure>& loops) {
   std::size_t rows = 0;
   for (const LoopClosure& loop : loops)
     visit_loop(loop.type, [&](auto type) { rows += decltype(type)::rows; });
@@ -103,14 +105,13 @@ std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
                        text(rows, " constraint rows on ", model.nv, " velocities: more than ",
                             kMaxLoopEntries, " matrix entries"),
                        "give fewer loops or bodies", "loop.too-many"}});
-  std::vector<std::vector<Diagnostic>> faults(loops.size());
+  std::vector<DiagnosticList> faults(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) {
     OneLoop(model, loops[l], faults[l]).check();
     for (std::size_t other = 0; other < l; ++other)
       if (same(loops[l], loops[other]))
-        faults[l].push_back({"", 0, "loop '" + loops[l].name + "'",
-                             "duplicate of loop '" + loops[other].name + "'",
-                             "remove one of the two", "loop.twice"});
+        faults[l].add(called(loops[l]), "duplicate of " + called(loops[other]),
+                      "remove one of the two", "loop.twice");
   }
   return faults;
 }
@@ -123,7 +124,7 @@ bool has_opposite_axes(const LoopClosure& loop, const Kinematics& k) {
 }
 
 void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,
-              std::vector<Diagnostic>& faults) {
+              DiagnosticList& faults) {
   Kinematics k(model);
   forward_kinematics(model, x, k);
   LoopClosures alone(model, {loop});
@@ -131,19 +132,19 @@ void add_open(const Model<double>& model, const LoopClosure& loop, const State<d
   const double error = alone.g().lpNorm<Eigen::Infinity>();
   const std::string fix = "give initial joint positions that close the loop";
   if (has_opposite_axes(loop, k))
-    faults.push_back({"", 0, "loop '" + loop.name + "'",
-                      "axes of the two frames point in opposite directions in the initial state",
-                      fix, "loop.turned-over"});
+    faults.add(called(loop),
+               "axes of the two frames point in opposite directions in the initial state", fix,
+               "loop.turned-over");
   else if (!(error <= kMaxInitialError))
-    faults.push_back({"", 0, "loop '" + loop.name + "'",
-                      text("position error is ", error,
-                           " (m or rad) in the initial state, allowed ", kMaxInitialError),
-                      fix, "loop.open"});
+    faults.add(called(loop),
+               text("position error is ", error, " (m or rad) in the initial state, allowed ",
+                    kMaxInitialError),
+               fix, "loop.open");
 }
 
-void throw_all(const std::vector<std::vector<Diagnostic>>& by_loop) {
+void throw_all(const std::vector<DiagnosticList>& by_loop) {
   DiagnosticList all;
-  for (const std::vector<Diagnostic>& faults : by_loop) all.add(faults);
+  for (const DiagnosticList& faults : by_loop) all.add(faults.faults());
   all.check();
 }
 
@@ -155,7 +156,7 @@ void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loo
 
 void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,
                  const State<double>& x) {
-  std::vector<std::vector<Diagnostic>> faults = faults_by_loop(model, loops);
+  std::vector<DiagnosticList> faults = faults_by_loop(model, loops);
   for (std::size_t l = 0; l < loops.size(); ++l)
     if (faults[l].empty()) add_open(model, loops[l], x, faults[l]);
   throw_all(faults);

@@ -227,7 +227,7 @@ struct LockedLoop : AnyLoop {
     out.J(out.row, static_cast<Eigen::Index>(v)) = 1;
   }
   static LoopProblem problem(const LoopClosure& loop) {
-    if (std::isfinite(loop.offset)) return {};
+    if (std::isfinite(loop.ratio) && std::isfinite(loop.offset)) return {};
     return {"ratio and offset must be finite", "give numbers"};
   }
 };
@@ -241,11 +241,6 @@ struct GearLoop : LockedLoop {
     out.g[out.row] -= out.loop.ratio * out.x.q[q];
     out.rate[out.row] -= out.loop.ratio * out.x.qd[v];
     out.J(out.row, static_cast<Eigen::Index>(v)) = -out.loop.ratio;
-  }
-  static LoopProblem problem(const LoopClosure& loop) {
-    return std::isfinite(loop.ratio)
-               ? LockedLoop::problem(loop)
-               : LoopProblem{"ratio and offset must be finite", "give numbers"};
   }
 };
 

@@ -10,7 +10,6 @@
 namespace twinarm {
 namespace {
 
-// check_parts() throws std::invalid_argument for incompatible parts.
 struct StepParts {
   Integrator integrator;
   bool located;  // event-driven steps
@@ -18,7 +17,8 @@ struct StepParts {
   const std::vector<ConstraintSource*>& constraints;
 };
 
-void check_integrator(const StepParts& parts) {
+// Throws std::invalid_argument for incompatible parts.
+void check_parts(const StepParts& parts) {
   const std::string name = integrator_name(parts.integrator);
   if (!parts.constraints.empty() && parts.integrator != Integrator::semi_implicit)
     throw std::invalid_argument(
@@ -31,9 +31,7 @@ void check_integrator(const StepParts& parts) {
       throw std::invalid_argument(
           "implicit spring-dampers and contacts require a semi-implicit integrator, not '" + name +
           "'");
-}
-
-void check_located(const StepParts& parts) {
+  if (!parts.located) return;
   for (const ForceSource* source : parts.forces)
     if (source->needs_semi_implicit())
       throw std::invalid_argument(
@@ -42,11 +40,6 @@ void check_located(const StepParts& parts) {
     if (!source->events())
       throw std::invalid_argument(
           "event-driven steps require constraint sources with events (ConstraintSource::events)");
-}
-
-void check_parts(const StepParts& parts) {
-  check_integrator(parts);
-  if (parts.located) check_located(parts);
 }
 
 std::vector<Checkpointable*> checkpointable_sources(const Simulation& simulation) {
