@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "app/command/command.h"
-#include "app/coupling/gain_equivalents.h"
 #include "app/coupling/prediction.h"
 #include "app/data/value.h"
 #include "app/support/files.h"

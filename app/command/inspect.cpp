@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "app/command/command.h"
-#include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/page/pages.h"
 #include "app/record/unpack.h"

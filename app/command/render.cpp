@@ -1,12 +1,10 @@
 // `twinarm render`: pictures and videos of a recording, a scene or a robot.
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "app/command/command.h"
 #include "app/data/json_writer.h"
 #include "app/draw/overlays/overlays.h"
-#include "app/film/film.h"
 #include "app/film/filmed_run.h"
 #include "app/film/rendering.h"
 #include "app/robot/robot_input.h"

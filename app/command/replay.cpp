@@ -6,7 +6,7 @@
 #include "app/command/command.h"
 #include "app/data/json_writer.h"
 #include "app/plot/gnuplot.h"
-#include "app/record/branch_view.h"
+#include "app/record/record_run.h"
 #include "app/support/files.h"
 
 namespace twinarm {

@@ -8,7 +8,6 @@
 #include "app/servo/servo_loop.h"
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/findings.h"
-#include "app/study/report/recordings.h"
 #include "app/study/report/report.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"

@@ -11,7 +11,7 @@
 #include "app/device/devices.h"
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/findings.h"
-#include "app/study/study_scene.h"
+#include "app/study/study_run.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"

@@ -1,4 +1,4 @@
-#include "app/coupling/gain_equivalents.h"
+#include "app/coupling/prediction.h"
 
 #include <fmt/format.h>
 #include <numbers>

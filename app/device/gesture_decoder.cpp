@@ -1,4 +1,4 @@
-#include "app/device/gesture_decoder.h"
+#include "app/device/gesture_device.h"
 
 #include <linux/input-event-codes.h>
 #include <linux/joystick.h>

@@ -5,10 +5,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "app/draw/palette.h"
-#include "app/draw/shape_mesh.h"
 #include "app/scene/read/read_scene.h"
 #include "solver/support/diagnostics.h"
 

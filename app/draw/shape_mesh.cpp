@@ -1,4 +1,4 @@
-#include "app/draw/shape_mesh.h"
+#include "app/draw/scene_meshes.h"
 
 #include <cmath>
 #include <numbers>

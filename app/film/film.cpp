@@ -1,4 +1,4 @@
-#include "app/film/film.h"
+#include "app/film/rendering.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/draw/overlays/overlays.h"
-#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
 #include "app/render/text/plot.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"

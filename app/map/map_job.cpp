@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/map/cell_measure.h"
 #include "app/record/record_run.h"
 #include "app/scene/read/change_scene.h"
 #include "app/scene/read/scene_keys.h"

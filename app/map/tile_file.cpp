@@ -1,4 +1,4 @@
-#include "app/map/tile_file.h"
+#include "app/map/map_results.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 
 #include "app/data/html_page.h"
 #include "app/draw/overlays/overlays.h"
-#include "app/film/filmed_run.h"
 #include "app/page/channels.h"
 #include "app/page/page_layers.h"
 #include "app/support/progress.h"

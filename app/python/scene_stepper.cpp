@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"

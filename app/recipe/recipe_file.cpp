@@ -1,5 +1,5 @@
 // Reads the TOML file of a recipe; its keys: app/recipe/README.md.
-#include "app/recipe/recipe_file.h"
+#include "app/recipe/robot_recipe.h"
 
 #include <algorithm>
 

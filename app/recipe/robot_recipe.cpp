@@ -5,11 +5,9 @@
 #include <Eigen/Geometry>
 #include <bit>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 
-#include "app/recipe/recipe_file.h"
 #include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"

@@ -1,4 +1,4 @@
-#include "app/record/branch_view.h"
+#include "app/record/record_run.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "app/plot/gnuplot.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

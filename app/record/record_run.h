@@ -1,12 +1,13 @@
 // Records a run, and replays a recorded one.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "app/record/recording.h"
 #include "app/record/recording_reader.h"
-#include "app/record/recording_writer.h"
 #include "app/record/unpack.h"
 #include "app/run/run.h"
 #include "app/run/simulate_input.h"
@@ -64,5 +65,28 @@ struct Replay {
 
 // The same run, or with changes a branch. Throws InputError.
 Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes);
+
+// A branch and its recording: tables and a figure.
+
+// Changes of the balances since the branch began.
+struct ComparedWork {
+  std::string name;
+  double recorded = 0, branch = 0;  // [J]
+};
+struct ComparedMomentum {
+  std::string name;
+  Eigen::Matrix<double, 6, 1> recorded, branch;  // linear [N s], angular [N m s]
+};
+struct ComparedBalances {
+  std::vector<ComparedWork> works;
+  std::vector<ComparedMomentum> momenta;
+};
+ComparedBalances compared_balances(const Replay& recorded, const Replay& branch);
+
+// The values that differ most, then both balances with their differences.
+void print_branch(const Recording& recording, const Replay& recorded, const Replay& branch);
+// The value that differs most, and the rows of the energy balance that do. Throws InputError.
+void draw_branch(const Recording& recording, const Replay& recorded, const Replay& branch,
+                 const std::vector<std::string>& changes, const std::filesystem::path& file);
 
 }  // namespace twinarm

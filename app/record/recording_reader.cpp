@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/record/recording_writer.h"
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"

@@ -1,4 +1,4 @@
-#include "app/record/recording_writer.h"
+#include "app/record/recording.h"
 
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"

@@ -5,10 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "app/record/recording_writer.h"
+#include "app/record/recording.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
-#include "app/support/files.h"
 #include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 

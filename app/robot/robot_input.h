@@ -9,7 +9,6 @@
 
 #include "app/data/value.h"
 #include "app/robot/coordinates.h"
-#include "app/support/text.h"
 #include "collision/import/robot/file_search.h"
 #include "collision/import/robot/missing_inertia.h"
 #include "collision/import/robot/robot_description.h"

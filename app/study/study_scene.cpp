@@ -1,4 +1,4 @@
-#include "app/study/study_scene.h"
+#include "app/study/study_run.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-
 #include "app/support/text.h"
 
 extern char** environ;

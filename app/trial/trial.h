@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/model/scene_model.h"
 #include "app/servo/servo_loop.h"
 
 namespace twinarm {

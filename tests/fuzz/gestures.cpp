@@ -1,5 +1,5 @@
 // The bytes of keyboard, game controller and space mouse, in two portions.
-#include "app/device/gesture_decoder.h"
+#include "app/device/gesture_device.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -7,7 +7,7 @@
 #include "app/device/devices.h"
 #include "app/lab/app/clients.h"
 #include "app/lab/app/uploads.h"
-#include "app/lab/session/session_commands.h"
+#include "app/lab/session/lab_session.h"
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "solver/support/input_file.h"

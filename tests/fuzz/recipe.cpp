@@ -1,5 +1,5 @@
 // The recipe of a robot drawn in CAD.
-#include "app/recipe/recipe_file.h"
+#include "app/recipe/robot_recipe.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -1,5 +1,5 @@
 // The file in which a map grows.
-#include "app/map/tile_file.h"
+#include "app/map/map_results.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

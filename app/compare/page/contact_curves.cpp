@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/compare/page/curves.h"
+#include "app/compare/page/page.h"
 #include "app/support/progress.h"
 #include "benchmarks/analytic/support/contact_scene.h"
 

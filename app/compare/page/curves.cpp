@@ -1,4 +1,4 @@
-#include "app/compare/page/curves.h"
+#include "app/compare/page/page.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "app/data/html_page.h"
-#include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"

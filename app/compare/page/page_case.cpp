@@ -3,11 +3,9 @@
 
 #include <regex>
 
-#include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
 #include "app/data/html_page.h"
 #include "app/support/text.h"
-#include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {
 namespace {

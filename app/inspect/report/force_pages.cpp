@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/robot/dynamics.h"
 #include "solver/loops/constrained_dynamics.h"

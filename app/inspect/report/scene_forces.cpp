@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/inspect/inspection.h"
-#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
 #include "app/robot/dynamics.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"

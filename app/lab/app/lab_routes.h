@@ -1,7 +1,6 @@
 // HTTP requests of the lab (docs/reference/lab_protocol.md).
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>

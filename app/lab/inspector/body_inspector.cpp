@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/inspect/equations.h"
-#include "app/inspect/report/inspect_output.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "coupling/device/device_motion.h"

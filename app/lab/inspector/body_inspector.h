@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "app/data/json_writer.h"
-#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
 #include "app/run/simulate_input.h"

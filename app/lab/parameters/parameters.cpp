@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "app/lab/parameters/parameter_makers.h"
-#include "app/scene/forces/add_contacts.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <utility>
 
-#include "app/record/recording_writer.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "app/draw/snapshot.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/record/recording.h"
 #include "coupling/device/device_motion.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/data/value.h"
 #include "app/record/record_run.h"
 #include "app/support/text.h"
 #include "solver/support/number_text.h"

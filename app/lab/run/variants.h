@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/lab/run/lab_run.h"
-#include "app/record/unpack.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {

@@ -7,7 +7,6 @@
 
 #include "app/diagnose/post_mortem.h"
 #include "app/lab/run/variants.h"
-#include "app/record/unpack.h"
 
 namespace twinarm {
 

@@ -1,4 +1,4 @@
-#include "app/lab/session/session_commands.h"
+#include "app/lab/session/lab_session.h"
 
 #include <algorithm>
 

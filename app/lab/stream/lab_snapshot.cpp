@@ -1,4 +1,4 @@
-#include "app/lab/stream/lab_snapshot.h"
+#include "app/lab/stream/frame_bytes.h"
 
 #include <algorithm>
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "app/draw/overlays/overlays.h"
-#include "app/lab/stream/live_view.h"
 
 namespace twinarm {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/lab/stream/live_view.h"
+#include "app/lab/stream/lab_view.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The painter draws into framebuffer objects: neither back end needs a surface.
-#include "app/render/gl/gl_context.h"
+#include "app/render/gl/painter.h"
 
 #define EGL_NO_X11
 #include <EGL/egl.h>

@@ -13,7 +13,6 @@
 
 #include "app/render/gl/scene_pass.h"
 #include "app/render/text/lettering.h"
-#include "app/render/text/overlay.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -1,4 +1,4 @@
-#include "app/render/text/overlay.h"
+#include "app/render/text/lettering.h"
 
 #include <fmt/format.h>
 

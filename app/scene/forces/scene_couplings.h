@@ -11,7 +11,6 @@
 #include "coupling/laws/coupling.h"
 #include "coupling/target/operator_motion.h"
 #include "coupling/target/target_robot.h"
-#include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -6,7 +6,6 @@
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"
-#include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_model.h"
 
 namespace twinarm {

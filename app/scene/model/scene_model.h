@@ -7,7 +7,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,7 +14,6 @@
 
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/robot_model.h"
-#include "collision/shapes/shape.h"
 #include "coupling/target/target_robot.h"
 #include "solver/integration/integration_state.h"
 #include "solver/model/model.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "app/support/progress.h"
 #include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 

@@ -9,7 +9,7 @@ namespace twinarm {
 namespace {
 
 // Contacts of the box with the collision hulls of all links but the base, as of the scene of the
-// run (study_scene.h).
+// run (study_run.h).
 class BoxContacts {
  public:
   BoxContacts(const StudyInputs& inputs, const Model<double>& model,

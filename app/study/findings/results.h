@@ -86,7 +86,7 @@ struct Evidence {
   bool is_contradicted() const;
 };
 
-// A recorded run (recordings.h).
+// A recorded run (app/study/report/report.h).
 struct StudyRecording {
   std::string name, title;
   std::filesystem::path scene, recording, page;  // page: empty if there is none

@@ -1,4 +1,4 @@
-#include "app/study/report/recordings.h"
+#include "app/study/report/report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"
-#include "app/support/text.h"
 
 namespace twinarm {
 namespace {

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "app/data/html_page.h"
 #include "app/plot/gnuplot.h"
 #include "app/study/findings/results.h"
 

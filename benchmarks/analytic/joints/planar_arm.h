@@ -5,7 +5,6 @@
 // Angles from x and between the links; c from the joint to the centre of mass, I about it.
 #pragma once
 
-#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm::smooth_parts {

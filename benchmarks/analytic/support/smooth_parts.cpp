@@ -1,7 +1,6 @@
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/dynamics/derivatives.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <numbers>
 
 #include "benchmarks/analytic/support/analytic_case.h"

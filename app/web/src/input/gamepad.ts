@@ -1,4 +1,4 @@
-// Game controller, mapped as by JoystickDecoder (app/device/gesture_decoder.h). Left stick: right and up; right
+// Game controller, mapped as by JoystickDecoder (app/device/gesture_device.h). Left stick: right and up; right
 // stick: yaw and toward; triggers or directional pad: roll; pad: pitch; first button: gripper, second: clutch.
 import type { Operator } from './operator';
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
 #include "app/run/simulate_input.h"
 #include "tests/app/scene/model/helpers.h"
 

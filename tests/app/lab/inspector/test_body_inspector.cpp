@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/lab/run/lab_run.h"
 #include "tests/app/lab/inspector/inspection_messages.h"
