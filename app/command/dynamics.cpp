@@ -47,8 +47,7 @@ std::string joint_table(const RobotInput& input, const Dynamics& d) {
 }
 
 std::string link_table(const RobotInput& input) {
-  Kinematics k(input.model);
-  forward_kinematics(input.model, input.state.x, k);
+  const Kinematics k = kinematics_at(input.model, input.state.x);
   TextTable table({"link", "x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]",
                    "wx [rad/s]", "wy [rad/s]", "wz [rad/s]"});
   for (std::size_t i = 1; i < input.model.parent.size(); ++i) {
@@ -60,23 +59,9 @@ std::string link_table(const RobotInput& input) {
   return table.str();
 }
 
-std::string matrix_table(const Coordinates& coordinates, const Eigen::MatrixXd& M) {
-  const std::vector<std::string> names = row_names(coordinates);
-  std::vector<std::string> headings{"mass matrix [SI]"};
-  headings.insert(headings.end(), names.begin(), names.end());
-  TextTable table(std::move(headings));
-  for (Eigen::Index i = 0; i < M.rows(); ++i) {
-    std::vector<std::string> row{names[static_cast<std::size_t>(i)]};
-    for (Eigen::Index j = 0; j < M.cols(); ++j) row.push_back(cell(M(i, j)));
-    table.add(std::move(row));
-  }
-  return table.str();
-}
-
 std::string dynamics_json(const RobotInput& input, const Dynamics& d) {
   const Coordinates& coordinates = input.coordinates;
-  Kinematics k(input.model);
-  forward_kinematics(input.model, input.state.x, k);
+  const Kinematics k = kinematics_at(input.model, input.state.x);
   const bool floats = coordinates.floating();
   const Vector3 still = Vector3::Zero();
 
@@ -111,7 +96,7 @@ std::string dynamics_table(const RobotInput& input, const Dynamics& d) {
                   xyz({g.x, g.y, g.z}));
   text += joint_table(input, d) + "\n";
   if (d.mass_matrix.rows() > 0 && d.mass_matrix.rows() <= kMaxPrintedColumns)
-    text += matrix_table(input.coordinates, d.mass_matrix) + "\n";
+    text += matrix_table("mass matrix [SI]", row_names(input.coordinates), d.mass_matrix) + "\n";
   text += link_table(input) + "\n";
   text += fmt::format(
       "mass {} kg, centre of mass {} m\n"
@@ -182,8 +167,7 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
 }
 
 std::string kinematics_json(const RobotInput& input) {
-  Kinematics k(input.model);
-  forward_kinematics(input.model, input.state.x, k);
+  const Kinematics k = kinematics_at(input.model, input.state.x);
   return answer_text([&](JsonWriter& json) {
     json.put("joints", input.coordinates.names());
     write_links(json.key("links"), input.model, k);

@@ -41,17 +41,8 @@ std::string couplings_part(const Predicted& found) {
 std::string matrix_part(const char* title, const Eigen::MatrixXd& matrix, const Predicted& found) {
   constexpr Index kMaxRows = 9;
   if (matrix.rows() > kMaxRows) return fmt::format("{}: see --json\n", title);
-  std::vector<std::string> headings{title};
-  for (const std::string& row : found.rows) headings.push_back(row);
-  TextTable table(headings);
-  const double rounding = 1e-10 * matrix.cwiseAbs().maxCoeff();
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    std::vector<std::string> line{found.rows[static_cast<std::size_t>(i)]};
-    for (Index j = 0; j < matrix.cols(); ++j)
-      line.push_back(std::abs(matrix(i, j)) < rounding ? "0" : cell(matrix(i, j)));
-    table.add(line);
-  }
-  return table.str();
+  const Eigen::ArrayXXd size = matrix.array().abs();
+  return matrix_table(title, found.rows, (size < 1e-10 * size.maxCoeff()).select(0, matrix));
 }
 
 std::string matrices_part(const Predicted& found) {

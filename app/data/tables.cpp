@@ -46,6 +46,19 @@ std::string cell(double value) {
   return std::abs(value) < kRounding ? "0" : fmt::format("{:.6g}", value);
 }
 
+std::string matrix_table(const std::string& title, const std::vector<std::string>& names,
+                         const Eigen::MatrixXd& matrix) {
+  std::vector<std::string> headings{title};
+  headings.insert(headings.end(), names.begin(), names.end());
+  TextTable table(std::move(headings));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    std::vector<std::string> row{names[static_cast<std::size_t>(i)]};
+    for (const double value : matrix.row(i)) row.push_back(cell(value));
+    table.add(std::move(row));
+  }
+  return table.str();
+}
+
 std::string short_number(double value, double scale) {
   constexpr double kRounding = 1e-13;
   if (std::isnan(value)) return "nan";

@@ -22,6 +22,10 @@ class TextTable {
 // Six digits; "0" below 1e-14.
 std::string cell(double value);
 
+// A square matrix with these names of its rows and columns.
+std::string matrix_table(const std::string& title, const std::vector<std::string>& names,
+                         const Eigen::MatrixXd& matrix);
+
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 // Five digits, four with an exponent; "0" below 1e-13 * scale.

@@ -158,8 +158,7 @@ struct LaneRunner {
   double spring_energy(const BatchCell& cell) {
     const State<double>& start = base.input.robot.state.x;
     SceneCouplings& couplings = *base.input.couplings;
-    Kinematics k(base.input.robot.model);
-    forward_kinematics(base.input.robot.model, start, k);
+    const Kinematics k = kinematics_at(base.input.robot.model, start);
     double energy = 0;
     for (std::size_t c = 0; c < couplings.size(); ++c) {
       const SceneCoupling& spec = couplings.spec(c);

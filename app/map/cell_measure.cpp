@@ -75,8 +75,7 @@ double reference_energy(const SimulatePlan& plan, bool with_springs) {
   double sum = kinetic_energy(model, start) + kFallHeight * weight_of(model), target = 0;
   if (!plan.input.couplings) return sum;
   SceneCouplings& couplings = *plan.input.couplings;
-  Kinematics k(model);
-  forward_kinematics(model, start, k);
+  const Kinematics k = kinematics_at(model, start);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (with_springs)
       sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();

@@ -30,8 +30,7 @@ bool is_polynomial(Integrator integrator) {
 bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   const Model<double>& model = plan.input.robot.model;
   const SceneCouplings& couplings = *plan.input.couplings;
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   std::vector<CoupledTerm> parts;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (!couplings.spec(c).is_first_component()) continue;
@@ -60,8 +59,7 @@ bool is_within_geometry(const SimulatePlan& plan) {
   SceneCouplings& couplings = *plan.input.couplings;
   const Model<double>& model = plan.input.robot.model;
   const State<double>& x = plan.input.robot.state.x;
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   const MatrixXd M = mass_matrix(model, x);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const SceneCoupling& spec = couplings.spec(c);

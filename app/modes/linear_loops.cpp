@@ -126,8 +126,7 @@ struct Held {
 };
 Held hold_at(const Model<double>& model, const State<double>& x, const AppliedForces& push,
              const LoopClosures& loops) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   Forces<double> forces(model);
   push(x, k, forces);
   ForwardDynamics dynamics(model);

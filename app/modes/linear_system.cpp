@@ -57,8 +57,7 @@ void add_turning(const Model<double>& model, const State<double>& x, Eigen::Matr
 LinearSystem linearise(const Model<double>& model, const State<double>& x,
                        const AppliedForces& push) {
   const Index nv = signed_index(model.nv);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   Forces<double> forces(model);
   push(x, k, forces);
   const ForwardDynamicsDerivatives passes = forward_dynamics_derivatives(model, x, forces);

@@ -107,16 +107,9 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
 class SmoothForces {
  public:
   explicit SmoothForces(SimulateInput& input)
-      : input_(input),
-        model_(input.robot.model),
-        torques_(model_, input.robot.coordinates, input.robot.state.tau) {
-    Kinematics k(model_);
-    forward_kinematics(model_, input.robot.state.x, k);
-    for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k);
-  }
+      : input_(input), model_(input.robot.model), given_(input.robot) {}
   void operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
-    torques_.add_forces(x, k, forces);
-    for (GivenWrench& wrench : wrenches_) wrench.add_forces(x, k, forces);
+    given_.add_forces(x, k, forces);
     for (std::size_t dof = 0; dof < model_.nv; ++dof)
       forces.tau[dof] -= model_.damping[dof] * x.qd[dof];
     if (!input_.couplings) return;
@@ -127,8 +120,7 @@ class SmoothForces {
  private:
   SimulateInput& input_;
   const Model<double>& model_;
-  GivenTorques torques_;
-  std::vector<GivenWrench> wrenches_;
+  GivenForces given_;
 };
 
 }  // namespace

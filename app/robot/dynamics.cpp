@@ -87,12 +87,17 @@ Force<double> in_body_axes(const Wrench& wrench, const Kinematics& k) {
   return {from_eigen(R_BW * (n_W + r_W.cross(f_W))), from_eigen(R_BW * f_W)};
 }
 
+Kinematics kinematics_at(const Model<double>& model, const State<double>& x) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  return k;
+}
+
 Dynamics compute_dynamics(const RobotInput& input) {
   const Model<double>& model = input.model;
   const State<double>& x = input.state.x;
   const Eigen::SparseMatrix<double> P = input.coordinates.P(model, x);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   std::vector<Force<double>> f_ext(model.parent.size());
   for (const Wrench& wrench : input.state.wrenches) f_ext[wrench.body] += in_body_axes(wrench, k);
 
@@ -119,9 +124,8 @@ Dynamics compute_dynamics(const RobotInput& input) {
 }
 
 void set_pose(RobotInput& input, const State<double>& x) {
-  Kinematics before(input.model), now(input.model);
-  forward_kinematics(input.model, input.state.x, before);
-  forward_kinematics(input.model, x, now);
+  const Kinematics before = kinematics_at(input.model, input.state.x);
+  const Kinematics now = kinematics_at(input.model, x);
   for (Wrench& wrench : input.state.wrenches) {
     if (wrench.in_link_axes) continue;
     const Pose &was = before.X_WL[wrench.body], &is = now.X_WL[wrench.body];

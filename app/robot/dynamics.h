@@ -5,9 +5,10 @@
 
 #include "app/robot/robot_input.h"
 #include "solver/dynamics/kinematics.h"
-#include "solver/model/workspace.h"
 
 namespace twinarm {
+
+Kinematics kinematics_at(const Model<double>& model, const State<double>& x);
 
 struct Dynamics {
   Eigen::VectorXd qdd;              // forward dynamics with tau and wrenches

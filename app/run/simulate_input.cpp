@@ -67,8 +67,7 @@ RobotDescription all_robots(const SceneDescription& scene) {
 
 // A force on the axes of all joints below does no work.
 void add_lever_warnings(const SceneModel& scene, std::vector<std::string>& warnings) {
-  Kinematics k(scene.model);
-  forward_kinematics(scene.model, scene.start, k);
+  const Kinematics k = kinematics_at(scene.model, scene.start);
   for (const SceneCoupling& c : scene.couplings)
     if (const int body = c.spring.body;
         c.type == CouplingDescription::Type::linear &&

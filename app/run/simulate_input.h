@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/data/value.h"
-#include "app/robot/robot_input.h"
+#include "app/robot/dynamics.h"
 #include "app/scene/forces/scene_couplings.h"
 #include "app/scene/model/scene_model.h"
 #include "solver/integration/integrator.h"
@@ -26,7 +26,6 @@ struct RunSettings {
   std::string contact;                   // "rigid" ..; may be empty
 };
 
-// Options of `twinarm simulate`.
 struct SimulateOptions : RunSettings {
   RobotOptions robot;
   std::optional<double> every;  // output interval [s]

@@ -42,7 +42,7 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
       outside_(outside),
       sim_(input_.model, input_.state.x,
            {.enable_constraint_work = true, .interrupted = watch.interrupted}),
-      torques_(input_.model, input_.coordinates, input_.state.tau),
+      given_(input_),
       limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
               result_.warnings) {
   add_forces(simulated);
@@ -52,9 +52,9 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
     warn(deep_start_warning(*contacts_, simulated.scene->description.contact));
   }
   warn(drift_warning(sim_, plan));
-  momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
+  momentum_.emplace(input_, given_.wrenches(), simulated.couplings.get(), plan.integrator,
                     plan.locates_events, sim_);
-  energy_balance_.emplace(input_, wrenches_, simulated.couplings.get(),
+  energy_balance_.emplace(input_, given_.wrenches(), simulated.couplings.get(),
                           plan.locates_events ? Integrator::dopri5 : plan.integrator,
                           momentum_->wants_inner());
   bound_ = plan.energy_bound > 0 ? plan.energy_bound
@@ -65,11 +65,7 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
 }
 
 void SteppedRun::add_forces(const SimulateInput& simulated) {
-  Kinematics start(input_.model);
-  forward_kinematics(input_.model, input_.state.x, start);
-  for (const Wrench& wrench : input_.state.wrenches) wrenches_.emplace_back(wrench, start);
-  sim_.add(torques_);
-  for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+  sim_.add(given_);
   if (simulated.scene) {
     for (std::size_t c = 0; c < simulated.couplings->size(); ++c)
       if (ForceSource* source = simulated.couplings->source(c)) sim_.add(*source);

@@ -68,8 +68,7 @@ class SteppedRun final : public RunView {
   OutsideForce* outside_;
   SimulateResult result_;
   Simulation sim_;
-  GivenTorques torques_;
-  std::vector<GivenWrench> wrenches_;
+  GivenForces given_;
   LimitWatch limits_;
   std::optional<EnergyBalance> energy_balance_;
   std::optional<MomentumBalance> momentum_;

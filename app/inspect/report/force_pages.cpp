@@ -145,8 +145,7 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
   for (const NamedJoint& joint : input.coordinates.all())
     to_solver(joint, input.state.x, input.state.tau.data() + joint.row, tau);
   add_by_joint(input.model, tau, "actuator/", "", actors);
-  Kinematics k(input.model);
-  forward_kinematics(input.model, input.state.x, k);
+  const Kinematics k = kinematics_at(input.model, input.state.x);
   for (std::size_t i = 0; i < input.state.wrenches.size(); ++i) {
     const Wrench& wrench = input.state.wrenches[i];
     AppliedForce actor{

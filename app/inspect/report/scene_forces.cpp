@@ -30,14 +30,11 @@ class SceneInspector::FirstStep {
         model_(input.robot.model),
         h_(h),
         others_(others),
-        given_(input.robot.state),
+        at_start_(input.robot.state),
         sim_(model_, input.robot.state.x, {.at_instant = true}),
-        torques_(model_, input.robot.coordinates, input.robot.state.tau),
+        given_(input.robot),
         k_(model_) {
-    forward_kinematics(model_, input.robot.state.x, k_);
-    for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k_);
-    sim_.add(torques_);
-    for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+    sim_.add(given_);
     for (std::size_t c = 0; c < input.couplings->size(); ++c)
       if (ForceSource* source = input.couplings->source(c)) sim_.add(*source);
     for (const NamedSource& other : others_) sim_.add(*other.source);
@@ -50,7 +47,7 @@ class SceneInspector::FirstStep {
   Inspected look(StateArchive* memory) {
     if (memory) {
       sim_.serialize(*memory);
-      input_.robot.state = given_;
+      input_.robot.state = at_start_;
       set_pose(input_.robot, sim_.state());
     }
     unknowns_ = {};
@@ -258,10 +255,9 @@ class SceneInspector::FirstStep {
   const Model<double>& model_;
   double h_;
   std::vector<NamedSource> others_;
-  const GivenState given_;  // as it was at the start of the run
+  const GivenState at_start_;
   Simulation sim_;
-  GivenTorques torques_;
-  std::vector<GivenWrench> wrenches_;
+  GivenForces given_;
   std::optional<SceneContacts> contacts_;
   State<double> x_;  // at which the forces act
   Kinematics k_;

@@ -105,8 +105,7 @@ std::optional<MouseSpringInput> MouseSpring::grab(const State<double>& x, int bo
                                                   const Vector3& p_L, const Vector3& goal_W) const {
   if (body <= 0 || body >= model_.body_count() || !p_L.allFinite() || !goal_W.allFinite())
     return std::nullopt;
-  Kinematics k(model_);
-  forward_kinematics(model_, x, k);
+  const Kinematics k = kinematics_at(model_, x);
   const Eigen::Matrix3Xd J = point_jacobian(model_, k, body, k.position(body, p_L));
   const Matrix3 mobility = J * inverse_of(mass_matrix(model_, x)) * J.transpose();
   const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(mobility);

@@ -39,8 +39,7 @@ double rounded(double value) {
 
 // Of everything that moves at the start, and of bounded obstacles.
 Eigen::AlignedBox3d bounds_of(const SceneModel& scene) {
-  Kinematics k(scene.model);
-  forward_kinematics(scene.model, scene.start, k);
+  const Kinematics k = kinematics_at(scene.model, scene.start);
   Eigen::AlignedBox3d bounds;
   for (int body = 1; body < scene.model.body_count(); ++body)
     bounds.extend(k.X_WL[static_cast<std::size_t>(body)].p);

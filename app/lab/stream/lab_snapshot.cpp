@@ -65,8 +65,7 @@ Snapshot LabSnapshots::of(const LabFrame& frame) {
 
 std::vector<Pose> LabSnapshots::poses(const LabFrame& frame) const {
   const Model<double>& model = plan_->input.robot.model;
-  Kinematics k(model);
-  forward_kinematics(model, instant_of(frame.recorded, model).x, k);
+  const Kinematics k = kinematics_at(model, instant_of(frame.recorded, model).x);
   return k.X_WL;
 }
 

@@ -1,24 +1,10 @@
 #include "app/scene/forces/given_forces.h"
 
-#include "app/robot/dynamics.h"
-
 namespace twinarm {
-
-void GivenTorques::add_forces(const State<double>& x, const Kinematics&,
-                              Forces<double>& forces) noexcept {
-  for (const NamedJoint& joint : coordinates_.all())
-    to_solver(joint, x, tau_.data() + joint.row, by_velocity_);
-  for (std::size_t i = 0; i < by_velocity_.size(); ++i) forces.tau[i] += by_velocity_[i];
-}
 
 GivenWrench::GivenWrench(const Wrench& wrench, const Kinematics& start) : wrench_(wrench) {
   const Pose& X_WL = start.X_WL[wrench.body];
   p_L_ = wrench.in_link_axes ? wrench.point : X_WL.inverse() * wrench.point;
-}
-
-void GivenWrench::add_forces(const State<double>&, const Kinematics& k,
-                             Forces<double>& forces) noexcept {
-  forces.f_ext[wrench_.body] += in_body_axes(now(k), k);
 }
 
 double GivenWrench::power(const Kinematics& k) const {
@@ -37,6 +23,20 @@ Wrench GivenWrench::now(const Kinematics& k) const {
     wrench.torque = X_WL.R * wrench_.torque;
   }
   return wrench;
+}
+
+GivenForces::GivenForces(const RobotInput& input) : input_(input), by_velocity_(input.model.nv) {
+  const Kinematics start = kinematics_at(input.model, input.state.x);
+  for (const Wrench& wrench : input.state.wrenches) wrenches_.emplace_back(wrench, start);
+}
+
+void GivenForces::add_forces(const State<double>& x, const Kinematics& k,
+                             Forces<double>& forces) noexcept {
+  for (const NamedJoint& joint : input_.coordinates.all())
+    to_solver(joint, x, input_.state.tau.data() + joint.row, by_velocity_);
+  for (std::size_t i = 0; i < by_velocity_.size(); ++i) forces.tau[i] += by_velocity_[i];
+  for (const GivenWrench& wrench : wrenches_)
+    forces.f_ext[wrench.body()] += in_body_axes(wrench.now(k), k);
 }
 
 }  // namespace twinarm

@@ -3,35 +3,17 @@
 
 #include <vector>
 
-#include "app/robot/robot_input.h"
+#include "app/robot/dynamics.h"
 #include "solver/forces/force_source.h"
 #include "solver/support/checkpointable.h"
 
 namespace twinarm {
 
-// Joint forces, constant in the coordinates of app/robot/coordinates.h: of a floating joint in the
-// parent's axes.
-class GivenTorques : public ForceSource, public Checkpointable {
- public:
-  GivenTorques(const Model<double>& model, const Coordinates& coordinates,
-               const Eigen::VectorXd& tau)
-      : coordinates_(coordinates), tau_(tau), by_velocity_(model.nv) {}
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
-
- private:
-  const Coordinates& coordinates_;
-  const Eigen::VectorXd& tau_;
-  std::vector<double> by_velocity_;
-};
-
 // A force at a point of a link and a torque about it. The point is fixed to the link; the
 // directions are constant in link axes, or in world axes (the point is then given at the start).
-class GivenWrench : public ForceSource, public Checkpointable {
+class GivenWrench {
  public:
   GivenWrench(const Wrench& wrench, const Kinematics& start);
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
   double power(const Kinematics& k) const;  // [W]
   Wrench now(const Kinematics& k) const;    // world axes
   std::size_t body() const { return wrench_.body; }
@@ -39,6 +21,21 @@ class GivenWrench : public ForceSource, public Checkpointable {
  private:
   Wrench wrench_;
   Vector3 p_L_;  // the point, link axes
+};
+
+// Joint forces are constant in the coordinates of app/robot/coordinates.h: of a floating joint in
+// the parent's axes.
+class GivenForces : public ForceSource, public Checkpointable {
+ public:
+  explicit GivenForces(const RobotInput& input);  // which must outlive it
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override;
+  const std::vector<GivenWrench>& wrenches() const { return wrenches_; }
+
+ private:
+  const RobotInput& input_;
+  std::vector<GivenWrench> wrenches_;
+  std::vector<double> by_velocity_;
 };
 
 }  // namespace twinarm
