@@ -64,10 +64,9 @@ std::unique_ptr<OperatorMotion> record_device(const StudyOptions& options,
   make_folder(options.out);
   Progress progress(options.json);
   progress.stage("recording " + device->description(), 1);
-  auto hand = record_operator(*device, settings.operator_duration, real_time, [&](double t) {
-    check_interrupt();
-    progress.advance(t / settings.operator_duration);
-  });
+  const double duration = settings.operator_duration;
+  auto hand = record_operator(*device, duration, real_time,
+                              [&](double t) { progress.advance(t, duration); });
   progress.finish();
   write_device_log(*hand, options.out / "hand.csv");
   return hand;

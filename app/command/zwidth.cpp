@@ -49,10 +49,7 @@ int run_zwidth(const ZwidthOptions& options) {
   const SampledDevice& device = options.device;
   const std::filesystem::path assets = find_assets();
   Progress progress(false, Progress::kPatience);
-  const Tell advance = [&](double part) {
-    check_interrupt();
-    progress.advance(part);
-  };
+  const Tell advance = [&](double part) { progress.advance(part, 1.0); };
   ZwidthResult result;
   progress.stage("walls", 0.5);
   result.walls = measure_walls(device, options.wall_damping, advance);

@@ -153,10 +153,7 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
     run.around.push_back(instant);
     while (around > 0 && next_around <= t + slack) next_around += around;
   };
-  watch.tick = [&](double t) {
-    check_interrupt();
-    progress.advance(t / plan.duration);
-  };
+  watch.tick = [&](double t) { progress.advance(t, plan.duration); };
   const SimulateResult result = run_plan(run.plan.input, plan, watch);
   if (result.post_mortem)
     print_error("twinarm: the run diverged after t = {:g} s: {}\n", result.end,

@@ -28,10 +28,13 @@ class Progress {
   // `weight`: expected share of the total duration.
   void stage(const std::string& name, double weight);
   void advance(double fraction_of_stage);  // in [0, 1]
-  // Of equal parts. Throws Interrupted after Ctrl-C.
-  void advance(std::size_t done, std::size_t parts) {
+  // Of an end, or of equal parts. Throws Interrupted after Ctrl-C.
+  void advance(double done, double end) {
     check_interrupt();
-    advance(static_cast<double>(done) / static_cast<double>(parts));
+    advance(done / end);
+  }
+  void advance(std::size_t done, std::size_t parts) {
+    advance(static_cast<double>(done), static_cast<double>(parts));
   }
   void at(const std::string& name, double share);  // instead of stages: share of the total
   void finish();

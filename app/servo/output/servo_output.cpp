@@ -149,10 +149,7 @@ State<double> record_again(const std::filesystem::path& scene,
   State<double> end = plan.input.robot.state.x;
   RunWatch watch;
   watch.look = [&](RunView& run) { end = run.simulation().state(); };
-  watch.tick = [&](double t) {
-    check_interrupt();
-    progress.advance(t / plan.run.duration);
-  };
+  watch.tick = [&](double t) { progress.advance(t, plan.run.duration); };
   record_plan(options, plan, watch);
   progress.finish();
   return end;
