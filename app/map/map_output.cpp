@@ -101,14 +101,6 @@ std::string axis_name(const MapAxis& axis, const std::string& unit) {
   return unit.empty() ? axis.path : axis.path + " [" + unit + "]";
 }
 
-// 1, 2 or 5 times a power of ten.
-double round_step(double length, int parts) {
-  const double raw = length / parts, power = std::pow(10, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw) return factor * power;
-  return 10 * power;
-}
-
 std::string tics(const MapAxis& axis) {
   std::string list;
   const auto add = [&](double value, bool labelled) {
@@ -119,7 +111,7 @@ std::string tics(const MapAxis& axis) {
                         labelled ? "" : " 1");
   };
   if (!axis.log) {
-    const double step = round_step(axis.to - axis.from, 7);
+    const double step = round_step((axis.to - axis.from) / 7);
     for (double n = std::ceil(axis.from / step - 1e-9); n * step <= axis.to + 1e-9 * step; ++n)
       add(n * step, true);
     return list;

@@ -42,6 +42,13 @@ std::pair<double, double> finite_range(const std::vector<const std::vector<doubl
   return {low, high};
 }
 
+double round_step(double at_least) {
+  const double power = std::pow(10, std::floor(std::log10(at_least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= at_least) return factor * power;
+  return 10 * power;
+}
+
 std::string in_quotes(const std::string& text) {
   return "'" + replace_all(text, "'", "''") + "'";
 }

@@ -57,6 +57,8 @@ class Gnuplot {
 // Smallest and largest finite value of all curves; {inf, -inf} if there is none.
 std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves);
 
+double round_step(double at_least);  // 1, 2 or 5 times a power of ten
+
 // Text in a script: in single quotes, inner ones doubled.
 std::string in_quotes(const std::string& text);
 

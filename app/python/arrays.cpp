@@ -8,11 +8,11 @@
 
 namespace twinarm::python {
 
-std::string shape_text(const py::array& array) {
+std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions) {
   std::string text = "(";
-  for (py::ssize_t i = 0; i < array.ndim(); ++i)
-    text += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
-  return text + (array.ndim() == 1 ? ",)" : ")");
+  for (py::ssize_t i = 0; i < dimensions; ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
+  return text + (dimensions == 1 ? ",)" : ")");
 }
 
 Array numbers_of(const py::handle& given, const std::string& what) {

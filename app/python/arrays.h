@@ -25,7 +25,10 @@ struct OnlyConstructed {
 };
 
 // "(2, 6)"
-std::string shape_text(const py::array& array);
+std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions);
+inline std::string shape_text(const py::array& array) {
+  return shape_text(array.shape(), array.ndim());
+}
 // As an array of doubles, or TypeError; `what`: the argument in messages, "aba(): q".
 Array numbers_of(const py::handle& given, const std::string& what);
 // ValueError for the first number that is not finite.

@@ -52,13 +52,8 @@ double positive(const char* name, double value) {
 py::object predict(const py::object& scene, const py::object& state,
                    const std::optional<double>& step, const std::string& integrator, double turn,
                    double time, const py::object& set) {
-  SimulateOptions options;
-  options.robot.model = path_of(scene);
-  if (!state.is_none()) options.robot.state = path_of(state);
+  SimulateOptions options = run_options(scene, step, integrator, state, "", true, true, set);
   options.duration = 1;  // not used
-  options.step = step;
-  options.integrator = integrator;
-  change_scene(set, options);
   const PredictTask task{positive("turn", turn), positive("time", time), {}, {}};
   SimulatePlan prepared = prepare_simulation(options);
   if (!prepared.input.couplings || prepared.input.couplings->size() == 0)

@@ -65,11 +65,9 @@ void Rows::check_shape(int dimensions, const py::ssize_t* shape, const Robot& ro
     count_ = is_one_ ? 1 : static_cast<std::size_t>(shape[0]);
     return;
   }
-  std::string found = "(";
-  for (int i = 0; i < dimensions; ++i) found += (i > 0 ? ", " : "") + std::to_string(shape[i]);
   const std::string wanted = std::to_string(size_);
-  throw py::value_error(std::string(function_) + "(): " + name_ + " has shape " + found +
-                        (dimensions == 1 ? ",)" : ")") + ", must have (" + wanted + ",) or (N, " +
+  throw py::value_error(std::string(function_) + "(): " + name_ + " has shape " +
+                        shape_text(shape, dimensions) + ", must have (" + wanted + ",) or (N, " +
                         wanted + "): the model has " + robot.size_of_q() + " and " +
                         robot.size_of_qd());
 }
@@ -118,14 +116,10 @@ Output::Output(const char* function, PyObject* given, const Calls& calls,
     const bool is_array = is_plain(given, kWanted);
     const auto* array = py::detail::array_proxy(given);
     if (!is_array || array->nd != n ||
-        !std::equal(dimensions.begin(), dimensions.begin() + n, array->dimensions)) {
-      std::string wanted;
-      for (int i = 0; i < n; ++i)
-        wanted += (i > 0 ? ", " : "") + std::to_string(dimensions[static_cast<std::size_t>(i)]);
-      throw py::value_error(std::string(function) + "(): out must be a writeable array of shape (" +
-                            wanted + (n == 1 ? ",)" : ")") +
+        !std::equal(dimensions.begin(), dimensions.begin() + n, array->dimensions))
+      throw py::value_error(std::string(function) + "(): out must be a writeable array of shape " +
+                            shape_text(dimensions.data(), n) +
                             ", float64, C-contiguous, as from numpy.empty");
-    }
     kept_ = py::reinterpret_borrow<py::object>(given);
   }
   data_ = reinterpret_cast<double*>(py::detail::array_proxy(kept_.ptr())->data);

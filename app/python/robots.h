@@ -44,11 +44,9 @@ class Robot : public OnlyConstructed {
   std::string size_of_qd() const { return "nv = " + std::to_string(model.nv); }
 };
 
-// Adds set={"coupling.pull.stiffness": 800}, changes of a scene before it is read, to options with
-// a model. `set`: None, or a dict by path of numbers, texts, booleans or lists of numbers.
-// TypeError for other values, ValueError if the model is not a scene.
-void change_scene(const pybind11::object& set, SimulateOptions& options);
-// Options of simulate() and SceneSimulation.
+// Options of simulate(), SceneSimulation and predict_couplings(). `set`: None, or changes of the
+// scene before it is read, a dict by path ("coupling.pull.stiffness") of numbers, texts, booleans
+// or lists of numbers. TypeError for other values, ValueError if the file is not a scene.
 SimulateOptions run_options(const pybind11::object& file, const std::optional<double>& step,
                             const std::string& integrator, const pybind11::object& state,
                             const std::string& contact, bool friction, bool armature,

@@ -128,11 +128,7 @@ class SceneStepper : public OnlyConstructed {
     }
   }
 
-  std::vector<std::string> coupling_names() const {
-    std::vector<std::string> names;
-    for (const SceneCoupling& c : plan_.input.scene->couplings) names.push_back(c.name);
-    return names;
-  }
+  std::vector<std::string> coupling_names() const { return names_of(plan_.input.scene->couplings); }
   // Empty: its target cannot be set.
   std::vector<std::string> target_joints(std::size_t c) const {
     const SceneCoupling& spec = plan_.input.couplings->spec(c);

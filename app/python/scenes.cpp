@@ -47,8 +47,7 @@ struct Samples {
       rows.insert(rows.end(), row.begin(), row.end());
     };
     const Model<double>& model = input.robot.model;
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
+    const Kinematics k = kinematics_at(model, x);
     t.push_back(now);
     append(q_with_prescribed(model, x), q);
     append(x.qd, qd);
@@ -135,24 +134,7 @@ std::string setting_text(const std::string& path, const py::handle& value) {
   return text;
 }
 
-}  // namespace
-
-py::dict work_by_row(const std::vector<EnergyRow>& rows) {
-  py::dict all;
-  for (const EnergyRow& row : rows) all[py::str(row.name)] = row.work;
-  return all;
-}
-py::dict momentum_by_row(const std::vector<MomentumRow>& rows) {
-  py::dict all;
-  for (const MomentumRow& row : rows) {
-    Array six = zeros({6});
-    store(row.angular, six.mutable_data(0));
-    store(row.linear, six.mutable_data(3));
-    all[py::str(row.name)] = six;
-  }
-  return all;
-}
-
+// set={"coupling.pull.stiffness": 800} of options with a model.
 void change_scene(const py::object& set, SimulateOptions& options) {
   if (set.is_none()) return;
   if (options.robot.model.extension() != ".toml")
@@ -172,6 +154,24 @@ void change_scene(const py::object& set, SimulateOptions& options) {
   }
   faults.check();
   options.scene = std::move(scene);
+}
+
+}  // namespace
+
+py::dict work_by_row(const std::vector<EnergyRow>& rows) {
+  py::dict all;
+  for (const EnergyRow& row : rows) all[py::str(row.name)] = row.work;
+  return all;
+}
+py::dict momentum_by_row(const std::vector<MomentumRow>& rows) {
+  py::dict all;
+  for (const MomentumRow& row : rows) {
+    Array six = zeros({6});
+    store(row.angular, six.mutable_data(0));
+    store(row.linear, six.mutable_data(3));
+    all[py::str(row.name)] = six;
+  }
+  return all;
 }
 
 SimulateOptions run_options(const py::object& file, const std::optional<double>& step,

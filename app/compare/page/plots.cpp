@@ -1,12 +1,11 @@
 #include "app/compare/page/page.h"
+#include "app/support/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-
-#include "app/support/text.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -123,11 +122,7 @@ std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
 std::string tics(const char* axis, double low, double high, int about) {
   const double wish = (high - low) / about;
   if (!(wish > 0) || !std::isfinite(wish)) return "";
-  const double power = std::pow(10, std::floor(std::log10(wish)));
-  double step = 10 * power;
-  for (const double digit : {5, 2, 1})
-    if (digit * power >= wish) step = digit * power;
-  return fmt::format("set {}tics {:.9g}\n", axis, step);
+  return fmt::format("set {}tics {:.9g}\n", axis, round_step(wish));
 }
 
 // Around all finite values, with a margin; a larger one around constant values.

@@ -6,20 +6,20 @@ namespace {
 
 using namespace contact_plots;
 
-// Angular frequency of small swings, from the times at which `reading` passes zero.
-template <class Reading>
-double frequency(ContactScene& scene, double duration, Reading&& reading) {
-  double before = reading(), first = 0, last = 0;
+// Angular frequency of swings, from the values of `along`, time or an angle, at which `reading`
+// passes zero.
+template <class Reading, class Along>
+double frequency(ContactScene& scene, double duration, Reading&& reading, Along&& along) {
+  double before = reading(), at = along(), first = 0, last = 0;
   int passes = 0;
   while (scene.t() < duration) {
-    const double t = scene.t();
     scene.step(kStep);
-    const double now = reading();
+    const double now = reading(), here = along();
     if (before * now < 0) {
-      last = scene.t() - (scene.t() - t) * now / (now - before);
+      last = here - (here - at) * now / (now - before);
       if (passes++ == 0) first = last;
     }
-    before = now;
+    before = now, at = here;
   }
   return (passes - 1) * std::numbers::pi / (last - first);
 }
@@ -37,7 +37,8 @@ CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, doubl
   scene.add_fixed(hollow, surface(1), {R, Vector3::Zero()});
   const int body = scene.start(
       {shape, surface(1), 1, {kArm * std::sin(kAngle), 0, -kArm * std::cos(kAngle)}, {}, {}, R});
-  const double found = frequency(scene, 12, [&] { return scene.p(body).x(); });
+  const double found = frequency(
+      scene, 12, [&] { return scene.p(body).x(); }, [&] { return scene.t(); });
   return {relative(found, reference), scene.drift()};
 }
 CaseResult sphere_in_bowl(double scale) {  // gravity
@@ -99,22 +100,14 @@ CaseResult upright_tube(double scale) {  // inertia
   ball.w = {0, 0, -kArm * kRate / kBallRadius};
   const int body = scene.start(ball);
   scene.locate_events();
-  // Angle that it circles between two zeros of its vertical velocity.
-  double azimuth = 0, before = scene.v(body).z(), first = 0, last = 0;
+  double azimuth = 0;
   Vector3 p = scene.p(body);
-  int passes = 0;
-  while (scene.t() < 3) {
-    scene.step(kStep);
-    const Vector3 now = scene.p(body);
-    const double change = angle_between(p, now), rise = scene.v(body).z();
-    azimuth += change;
-    if (before * rise < 0) {
-      last = azimuth - change * rise / (rise - before);
-      if (passes++ == 0) first = last;
-    }
-    before = rise, p = now;
-  }
-  const double found = (passes - 1) * std::numbers::pi / (last - first);
+  const auto circled = [&] {
+    azimuth += angle_between(std::exchange(p, scene.p(body)), scene.p(body));
+    return azimuth;
+  };
+  const double found = frequency(
+      scene, 3, [&] { return scene.v(body).z(); }, circled);
   return {relative(found, std::sqrt(2 / 7.0)), scene.drift()};
 }
 

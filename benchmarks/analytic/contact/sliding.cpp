@@ -25,13 +25,10 @@ CaseResult creep(double scale) {  // mu
 CaseResult holding_forces(double scale) {  // gravity
   ContactScene scene(scale * tilted_gravity(kIncline));
   const int block = add_block(scene, 0.6);
-  double error = 0;
-  for (int n = 0; n < 1000; ++n) {
-    scene.step(kStep);
+  return {scene.max_until(1, kStep, [&] {
     const Vector3 F = scene.force(block);
-    error = std::max({error, relative(F.x(), -9.81), relative(F.z(), 16.99141842225069)});
-  }
-  return {error};
+    return std::max(relative(F.x(), -9.81), relative(F.z(), 16.99141842225069));
+  })};
 }
 
 CaseResult slide_speed(double scale) {  // mu

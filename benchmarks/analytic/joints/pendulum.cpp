@@ -98,14 +98,13 @@ Model<double> rod(double to_centre) {
   return one_body(JointType::revolute, Vector3::UnitY(),
                   {1, {0, 0, -to_centre}, Vector3(1. / 12, 1. / 12, 0).asDiagonal()});
 }
-CaseScene rod_released(Real angle) {
-  return start_at(rod(0.5), {static_cast<double>(angle)}, {0});
+CaseScene rod_released(Real angle, double rate = 0) {
+  return start_at(rod(0.5), {static_cast<double>(angle)}, {rate});
 }
 
 TrajectoryCase one_reading(Real angle, double rate, const char* reading, Observed observed,
                            double exact) {
-  return evaluation(start_at(rod(0.5), {static_cast<double>(angle)}, {rate}), {reading},
-                    observe(std::move(observed)), {exact});
+  return evaluation(rod_released(angle, rate), {reading}, observe(std::move(observed)), {exact});
 }
 
 // Times of its swing, with a reading there that is the same each time.
