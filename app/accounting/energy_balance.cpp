@@ -206,7 +206,6 @@ namespace {
 constexpr double kGrowth = 1.5, kShare = 0.25;
 constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // relative to floor_
 
-// Rows of numerical work.
 std::vector<EnergyRow> numerical_rows(const std::vector<EnergyRow>& rows) {
   std::vector<EnergyRow> found;
   for (const EnergyRow& row : rows) switch (row.kind) {

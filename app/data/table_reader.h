@@ -51,7 +51,6 @@ class TableReader {
   std::optional<double> unit_length(const std::string& key, std::span<const double, 4> q);
   // Index of the name in `names`.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
-  // The tables of [[key]].
   std::vector<const Value*> tables(const std::string& key);
   const Value* table(const std::string& key);
 

@@ -13,7 +13,6 @@
 
 namespace twinarm {
 
-// Options of `twinarm map`.
 struct MapOptions {
   std::filesystem::path scene;
   std::string x, y;                      // PATH:FROM:TO:N[:log]
@@ -59,7 +58,7 @@ struct MapJob {
   Value scene;
   std::string x_unit, y_unit, unit, error_unit;  // `unit` is the measure's
   bool side_by_side = false;                     // SIMD batches (app/map/cell_batch.h)
-  // Lines that must agree in files of the same map (app/map/tile_file.h); not the measure, as all
+  // Lines that must agree in files of the same map (app/map/tile_file.cpp); not the measure, as all
   // of them are computed.
   std::vector<std::string> identity;
 
@@ -75,7 +74,6 @@ struct MapJob {
 // corners of the map.
 MapJob read_map_job(const MapOptions& options);
 
-// Sets both parameters in the scene.
 void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults);
 // Throws InputError; diagnostics caused by a parameter name its axis.
 SimulatePlan prepare_cell(const MapJob& job, double x, double y);

@@ -69,7 +69,6 @@ class HapticLoop {
   DeviceForce rendered_;
 };
 
-// Bodies of the driven joints.
 std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& joints);
 // Point that follows the stylus: of the outermost linear coupling of these, else the origin of the
 // last driven link, or its centre of mass if it has no child. Link axes.

@@ -195,7 +195,6 @@ TickResult LiveRun::tick() noexcept {
 
 namespace {
 
-// First state of a live device.
 DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, double h) {
   constexpr double kPatience = 5;  // [s]
   for (double waited = 0;; waited += h) {

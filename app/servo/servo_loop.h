@@ -30,7 +30,6 @@ struct LiveOptions : HapticLoopOptions {
   double step = 0;  // from 1e-6 to 0.1 s; 0: the scene's
 };
 
-// Result of a tick.
 struct TickResult {
   DeviceStep motion;  // of the KVR
   DeviceWatchdog::Mode mode = DeviceWatchdog::Mode::live;

@@ -18,7 +18,6 @@ inline std::string item(const char* list, std::size_t index, const char* key) {
 }
 // A robot of more has no parameters of joints and links: too many for a page.
 inline constexpr std::size_t kManyLinks = 200;
-// Whether the name can be a part of a path.
 inline bool is_path_part(const std::string& name) {
   return name.find_first_of(".[") == std::string::npos;
 }

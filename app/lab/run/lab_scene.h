@@ -39,7 +39,6 @@ class LabScene {
   // As `twinarm simulate` would run it, without end; options.scene becomes its file. `roots`:
   // folders of files that changes may name, beside its own. Throws InputError with all faults.
   explicit LabScene(const SimulateOptions& options, FileRoots roots = {});
-  // The scene of a recording.
   explicit LabScene(RecordingHeader header, FileRoots roots = {});
 
   // Changes: those of a branch (app/record/unpack.h), and step, tolerance, integrator, contact,

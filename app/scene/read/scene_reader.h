@@ -43,7 +43,6 @@ struct SceneReader {
                   std::string("give each ") + kind + " its own name", "scene.name-taken");
     return name;
   }
-  // The table `motion`.
   std::optional<BodyMotion> read_motion(TableReader& table);
   // Initial velocities; if not is_free, a diagnostic with this problem and fix.
   template <class Item>
