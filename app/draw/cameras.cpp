@@ -1,4 +1,4 @@
-#include "app/draw/cameras.h"
+#include "app/draw/scene_view.h"
 
 #include <algorithm>
 #include <cmath>

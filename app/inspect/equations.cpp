@@ -1,4 +1,4 @@
-#include "app/inspect/equations.h"
+#include "app/inspect/inspection.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

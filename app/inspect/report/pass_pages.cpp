@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/inspect/equations.h"
 #include "app/inspect/inspection.h"
 
 namespace twinarm {

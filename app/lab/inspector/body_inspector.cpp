@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/inspect/equations.h"
+#include "app/inspect/inspection.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "coupling/device/device_motion.h"

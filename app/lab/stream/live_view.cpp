@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "app/draw/cameras.h"
+#include "app/draw/scene_view.h"
 #include "app/robot/coordinates.h"
 #include "solver/model/mimic.h"
 

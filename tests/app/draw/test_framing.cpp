@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "app/draw/cameras.h"
 #include "app/draw/scene_view.h"
 #include "app/render/list/view.h"
 #include "tests/app/scene/model/helpers.h"

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "app/inspect/cross_checks.h"
-#include "app/inspect/equations.h"
 #include "app/inspect/force_balance.h"
 #include "app/inspect/inspection.h"
 #include "tests/solver/dynamics/random_tree.h"
