@@ -105,15 +105,17 @@ void write_device_log(const DeviceMotion& motion, const std::filesystem::path& f
 bool is_device_log(const std::filesystem::path& file) {
   const std::string header = device_log_header();
   std::string start(header.size(), '\0');
-  std::ifstream stream = open_file(file);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  std::ifstream stream(file);
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
 }
 
 std::unique_ptr<DeviceMotion> read_device_log(const std::filesystem::path& file) {
+  std::ifstream stream = open_file(file);
   if (!is_device_log(file))
     throw InputError({{file.string(), 1, "header", "the header is not that of a motion log",
                        "give a file written by `twinarm hand --log`", "hand.header"}});
-  std::ifstream stream = open_file(file);
   std::string line;
   next_line(stream, line, file.string(), 1);
   std::vector<DeviceStep> steps;
