@@ -49,7 +49,8 @@ TEST_CASE("detection and distance of all pairs of shapes do not allocate in the 
       for (int k = 0; k < 60; ++k) {
         const Pose X_WA = random_pose(random);
         Pose X_WB = random_pose(random);
-        X_WB.p = X_WA.p + random.uniform(0, 0.25) * random.direction();
+        const double distance = random.uniform(0, 0.35);  // a sphere also leaves the cavity
+        X_WB.p = X_WA.p + distance * random.direction();
         poses.push_back({X_WA, X_WB});
       }
       std::vector<Contact> contacts;
