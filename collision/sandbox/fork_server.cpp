@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -71,15 +72,18 @@ struct Order {
   }
 };
 
+// First byte of an answer: what follows, bytes or the error.
+constexpr std::string_view kBytes = " ", kFault = "!";
+
 void answer(int socket) {
   StateArchive received(receive_all(socket, std::chrono::seconds(10)).value_or(""));
   Order order;
   order.serialize(received);
-  ChildResult result =
+  const ChildResult result =
       run_in_fork(reinterpret_cast<ChildWork>(order.work), order.argument, order.limits);
-  StateArchive reply;
-  reply.visit(result.bytes, result.fault);
-  send_all(socket, reply.bytes());
+  const bool is_done = result.fault.empty();
+  if (send_all(socket, is_done ? kBytes : kFault))
+    send_all(socket, is_done ? result.bytes : result.fault);
 }
 
 [[noreturn]] void serve(int orders) {
@@ -120,10 +124,9 @@ ChildResult run_by_server(ChildWork work, const std::string& argument, const Chi
     answer = receive_all(mine, std::chrono::seconds(limits.wall_seconds + 20)).value_or("");
   close(mine);
   if (answer.empty()) throw std::system_error(EAGAIN, std::generic_category(), "fork");
-  StateArchive reply(std::move(answer));
-  ChildResult result;
-  reply.visit(result.bytes, result.fault);
-  return result;
+  const bool is_done = answer.starts_with(kBytes);
+  answer.erase(0, 1);
+  return is_done ? ChildResult{std::move(answer), ""} : ChildResult{"", std::move(answer)};
 }
 
 ForkServer::ForkServer() {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include "solver/support/diagnostics.h"
 
@@ -68,10 +69,9 @@ std::string parsed_in_child(const std::string& file, const std::string& bytes, C
   std::string name = file, content = bytes;
   StateArchive order;
   order.visit(name, content);
-  const ChildResult child =
-      run_limited(work, order.bytes(), {.cpu_seconds = 10, .wall_seconds = 30});
+  ChildResult child = run_limited(work, order.bytes(), {.cpu_seconds = 10, .wall_seconds = 30});
   if (!child.fault.empty()) refuse_parsed(file, child.fault);
-  StateArchive archive(child.bytes);
+  StateArchive archive(std::move(child.bytes));
   std::vector<Diagnostic> faults;
   std::string result;
   try {

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <new>
+#include <utility>
 
 #include "collision/sandbox/child_socket.h"
 #include "collision/sandbox/fork_server.h"
@@ -91,7 +92,7 @@ ChildResult run_in_fork(ChildWork work, const std::string& argument, const Child
   }
   if (child == 0) run_child(work, argument, limits, theirs);
   close(theirs);
-  const auto bytes = receive_all(mine, std::chrono::seconds(limits.wall_seconds));
+  auto bytes = receive_all(mine, std::chrono::seconds(limits.wall_seconds));
   if (!bytes) kill(child, SIGKILL);
   close(mine);
   int status = 0;
@@ -99,7 +100,7 @@ ChildResult run_in_fork(ChildWork work, const std::string& argument, const Child
     if (errno != EINTR) throw_errno("waitpid");
   if (!bytes) return {"", "does not end within " + std::to_string(limits.wall_seconds) + " s"};
   const std::string fault = fault_of(status, limits);
-  return {fault.empty() ? *bytes : "", fault};
+  return {fault.empty() ? std::move(*bytes) : "", fault};
 }
 
 ChildResult run_limited(ChildWork work, const std::string& argument, const ChildLimits& limits) {
