@@ -143,6 +143,10 @@ void print_recording_csv(const Recording& recording) {
 }
 
 void print_recording_json(const Recording& recording) {
+  for (std::size_t n = 0; n < recording.size(); ++n) {  // refuses damaged ones before it prints
+    check_interrupt();
+    recording.frame(n);
+  }
   const auto write = [&](JsonWriter& json) {
     write_header(json, recording);
     json.key("frames").begin_array();

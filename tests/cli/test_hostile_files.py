@@ -155,6 +155,8 @@ class HostileFiles(ProgramTest):
             return change
         for count in (1 << 60, (1 << 64) - 1, 1 << 32):
             self.reported("export", self.recorded(claims(count)), "--csv")
+        errors = self.faults("export", self.recorded(claims(1 << 32)), "--json")  # one object, though others are whole
+        self.assertEqual([error["code"] for error in errors], ["recording.numbers"])
         part = self.recorded(lambda found: found)
         with part.open("ab") as out:
             out.write(b"F" + struct.pack("<I", 0xffffffff))
