@@ -94,7 +94,7 @@ def directed(made):
     for code, text in (CASES["scenes"] | LARGE).items():
         needed = companions() | {name: data for name, data in files.items() if name in text}
         if "round.obj" in text:
-            needed["round.obj"] = points_on_sphere(46000)
+            needed["round.obj"] = points_on_sphere(60000)
         yield Case("directed", code, ["simulate", "s.toml", "--duration", "0.01", "--json"],
                    needed | {"arm.urdf": files["arm.urdf"], "s.toml": whole(text).encode()})
     for code, (old, new) in (CASES["urdf"] | LARGE_URDF).items():
