@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "collision/sandbox/sanitized.h"
+#include "solver/support/sanitized.h"
 
 namespace twinarm {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "collision/sandbox/child_socket.h"
 #include "collision/sandbox/fork_server.h"
-#include "collision/sandbox/sanitized.h"
 #include "collision/sandbox/system_call_filter.h"
+#include "solver/support/sanitized.h"
 
 namespace twinarm {
 namespace {

@@ -20,11 +20,12 @@ std::ifstream open_file(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto type = std::filesystem::status(file, ignored).type();
   using std::filesystem::file_type;
-  if (type == file_type::not_found || type == file_type::none)
+  if (type == file_type::not_found)
     refuse(file, "the file does not exist", "check the path", "file.missing");
   if (type == file_type::directory)
     refuse(file, "is a folder", "name a file in it", "file.is-folder");
-  if (type != file_type::regular)
+  if (type != file_type::regular &&
+      type != file_type::none)  // none: of a folder without permission
     refuse(file, "is a device or a pipe", "name a file", "file.no-file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream)

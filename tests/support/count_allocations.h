@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "tests/sanitized.h"
+#include "solver/support/sanitized.h"
 
 namespace twinarm::testing {
 inline thread_local volatile long allocations = 0, allocated_bytes = 0;  // of this thread

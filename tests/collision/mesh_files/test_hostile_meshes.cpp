@@ -14,7 +14,7 @@
 #include "collision/mesh_files/model_file.h"
 #include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
-#include "tests/sanitized.h"
+#include "solver/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 namespace twinarm {
@@ -172,13 +172,13 @@ TEST_CASE("hostile meshes: a triangle with an invalid vertex index is never read
 
 #ifndef TWINARM_SANITIZED  // sanitizers reserve terabytes of address space: no limit
 TEST_CASE("hostile meshes: a child that exceeds its memory limit ends with a message") {
-  const auto work = [](const std::string& gibibytes) {
-    const std::vector<char> block(std::stoul(gibibytes) << 30, 1);
+  const auto work = [](const std::string& mebibytes) {
+    const std::vector<char> block(std::stoul(mebibytes) << 20, 1);
     return std::to_string(block[block.size() / 2]);
   };
   const ChildLimits limits{.cpu_seconds = 20, .bytes = std::size_t{2} << 30};
-  CHECK(run_limited(work, "1", limits).bytes == "1");
-  CHECK(run_limited(work, "3", limits).fault == "needs more than 2 GiB of memory");
+  CHECK(run_limited(work, "64", limits).bytes == "1");
+  CHECK(run_limited(work, "3072", limits).fault == "needs more than 2 GiB of memory");
 }
 #endif
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "collision/sandbox/fork_server.h"
-#include "tests/sanitized.h"
+#include "solver/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace twinarm;

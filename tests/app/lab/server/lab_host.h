@@ -9,8 +9,8 @@
 #include <string>
 
 #include "app/lab/server/lab_server.h"
+#include "solver/support/sanitized.h"
 #include "tests/app/lab/server/raw_client.h"
-#include "tests/sanitized.h"
 #include "tests/support/waiting.h"
 
 inline twinarm::Bytes bytes_of(std::string text) {

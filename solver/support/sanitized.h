@@ -1,4 +1,5 @@
-// Which sanitizer watches this build: g++ tells by macros, clang by features.
+// Which sanitizer watches this build: g++ tells by macros, clang by features. Sanitizers reserve
+// terabytes of address space, report on standard error and make system calls of their own.
 #pragma once
 
 #if defined(__has_feature)
@@ -18,3 +19,13 @@
 #if defined(TWINARM_ADDRESS_SANITIZER) || defined(TWINARM_THREAD_SANITIZER)
 #define TWINARM_SANITIZED
 #endif
+
+namespace twinarm {
+
+#ifdef TWINARM_SANITIZED
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+}  // namespace twinarm
