@@ -76,7 +76,7 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
     watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
     watch.interrupted = is_interrupted;
     watch.tick = [&](double t) { progress.advance(t, plan.duration); };
-    if (recorder) watch.look = [&](RunView& run) { recorder->look(run); };
+    if (recorder) watch.look = [&](SteppedRun& run) { recorder->look(run); };
     result = run_plan(input, plan, watch);
   } catch (const Interrupted&) {
     if (recorder) recorder->finish("interrupted");

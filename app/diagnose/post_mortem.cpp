@@ -44,7 +44,7 @@ struct LastSteps {
   }
 };
 
-std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const RunView& run) {
+std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const SteppedRun& run) {
   SceneCouplings* couplings = prepared.input.couplings.get();
   const Simulation& simulation = run.simulation();
   const State<double>& x = simulation.state();
@@ -75,7 +75,7 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
   if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path(), ignored);
   RunRecorder recorder(file, std::move(header), prepared);
   RunWatch watch;
-  watch.look = [&](RunView& run) {
+  watch.look = [&](SteppedRun& run) {
     if (run.step() <= last - kLastSteps) return;
     found.last = run.step();
     if (found.first < 0) {
@@ -187,7 +187,7 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
                             short_number_text(h)));
 }
 
-void explain_at_once(const SimulatePlan& prepared, const RunView& run,
+void explain_at_once(const SimulatePlan& prepared, const SteppedRun& run,
                      const std::vector<EnergyRow>& before, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
   add_first_words(prepared, result);

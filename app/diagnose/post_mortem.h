@@ -20,7 +20,7 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result);
 
 // Without a recording. `run` is at its stop; `before`: its energy balance some time earlier.
-void explain_at_once(const SimulatePlan& prepared, const RunView& run,
+void explain_at_once(const SimulatePlan& prepared, const SteppedRun& run,
                      const std::vector<EnergyRow>& before, SimulateResult& result);
 
 // Text of an alarm: row, time, likely cause and fix.

@@ -140,7 +140,7 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   std::size_t next = 0;
   std::optional<RunInstant> first;
   RunWatch watch;
-  watch.look = [&](RunView& view) {
+  watch.look = [&](SteppedRun& view) {
     const double t = view.simulation().state().t;
     const bool shows = next < wanted.size() && t >= wanted[next] - slack;
     const bool looks = t >= next_around - slack && (end > 0 || t <= 0);

@@ -94,7 +94,7 @@ CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
   integral_.assign(joints_.iq.size(), 0);
 }
 
-void CellMeasure::look(RunView& run) {
+void CellMeasure::look(SteppedRun& run) {
   const State<double>& x = run.simulation().state();
   if (joints_.iq.empty()) return;
   const State<double>& target = plan_.input.couplings->target(joints_.coupling, x.t).x;
@@ -143,7 +143,7 @@ CellValues record_cell(const MapJob& job, const OpenedCell& cell,
   const SimulatePlan plan = prepare_simulation(options);
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
   RunWatch watch;
-  watch.look = [&](RunView& run) { measure.look(run); };
+  watch.look = [&](SteppedRun& run) { measure.look(run); };
   watch.tick = [](double) { check_interrupt(); };
   return measure.values(record_plan(options, plan, watch));
 }

@@ -62,7 +62,7 @@ bool is_bounded(double created, double reference);
 class CellMeasure {
  public:
   CellMeasure(const SimulatePlan& plan, MeasuredJoints joints);  // the plan must outlive it
-  void look(RunView& run);                                       // at the start and after each step
+  void look(SteppedRun& run);                                    // at the start and after each step
   CellValues values(const SimulateResult& result) const;
 
  private:

@@ -32,7 +32,7 @@ CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
   RunWatch watch;
   watch.interrupted = is_interrupted;
   watch.tick = [](double) { check_interrupt(); };
-  watch.look = [&](RunView& run) { measure.look(run); };
+  watch.look = [&](SteppedRun& run) { measure.look(run); };
   return measure.values(run_plan(plan.input, plan.run, watch));
 }
 

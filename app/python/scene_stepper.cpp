@@ -34,7 +34,7 @@ struct GivenTarget {
 };
 
 struct SavedState : OnlyConstructed {
-  std::string memory;  // RunView::memory()
+  std::string memory;  // SteppedRun::memory()
   Eigen::VectorXd tau;
   std::vector<GivenTarget> targets;
   double t = 0;
@@ -52,7 +52,7 @@ class SceneStepper : public OnlyConstructed {
       header.duration = 1;  // as in the options; the frames go on
       recorder_.emplace(path_of(record), std::move(header), plan_);
     }
-    watch_.look = [this](RunView& view) {
+    watch_.look = [this](SteppedRun& view) {
       if (recorder_) recorder_->look(view);
     };
     begin(nullptr);

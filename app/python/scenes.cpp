@@ -104,7 +104,7 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
   std::optional<RunRecorder> recorder;
   if (!record.is_none()) {
     recorder.emplace(path_of(record), header_of(options, prepared, {"twinarm.simulate"}), prepared);
-    watch.look = [&](RunView& run) { recorder->look(run); };
+    watch.look = [&](SteppedRun& run) { recorder->look(run); };
   }
   const SimulateResult result = [&] {
     const py::gil_scoped_release other_threads;

@@ -122,7 +122,7 @@ using recording_format::kMomentumName, recording_format::kName;
 
 // Rows of the balances, by the indices of their names.
 template <class NumberOf>
-void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of) {
+void add_rows(const SteppedRun& run, RecordedFrame& frame, const NumberOf& number_of) {
   for (const EnergyRow& row : run.energy_balance()) {
     frame.rows.push_back(number_of(kName, row.name));
     frame.works.push_back(row.work);
@@ -147,7 +147,7 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
       found.bodies.push_back(prepared.input.robot.model.body_name[static_cast<std::size_t>(b)]);
   std::size_t next = first;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
+  watch.look = [&](SteppedRun& run) {
     if (next >= recording.size()) return;
     const RecordedFrame recorded = recording.frame(next);
     if (run.step() != recorded.step) return;
@@ -208,7 +208,7 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   return header;
 }
 
-RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
+RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared) {
   RecordedFrame frame;
   const State<double>& x = run.simulation().state();
   frame.step = run.step();
@@ -223,7 +223,7 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
   return frame;
 }
 
-void add_energy_balances(const RunView& run, std::vector<std::string>& names,
+void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
                          std::vector<std::string>& momentum_names, RecordedFrame& frame) {
   add_rows(run, frame, [&](char kind, const std::string& name) {
     return number_in(kind == kName ? names : momentum_names, name);
@@ -234,7 +234,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader head
                          const SimulatePlan& prepared, double every)
     : writer_(file, std::move(header)), prepared_(prepared), every_(every) {}
 
-void RunRecorder::look(RunView& run) {
+void RunRecorder::look(SteppedRun& run) {
   const double t = run.simulation().state().t, slack = 1e-6 * std::min(prepared_.run.step, 1e-3);
   const bool at_end = t >= prepared_.run.duration - slack;
   if (every_ > 0 && t < next_ - slack && !at_end) return;
@@ -242,7 +242,7 @@ void RunRecorder::look(RunView& run) {
   write(run);
 }
 
-void RunRecorder::write(RunView& run) {
+void RunRecorder::write(SteppedRun& run) {
   RecordedFrame frame = frame_of(run, prepared_);
   add_rows(run, frame,
            [&](char kind, const std::string& name) { return writer_.number_of(kind, name); });
@@ -255,7 +255,7 @@ SimulateResult record_plan(const SimulateOptions& options, const SimulatePlan& p
                                          "--record", options.record.string()};
   RunRecorder recorder(options.record, header_of(options, prepared, command), prepared);
   watch.interrupted = is_interrupted;
-  watch.look = [&, look = std::move(watch.look)](RunView& run) {
+  watch.look = [&, look = std::move(watch.look)](SteppedRun& run) {
     look(run);
     recorder.look(run);
   };

@@ -9,8 +9,8 @@
 #include "app/record/recording.h"
 #include "app/record/recording_reader.h"
 #include "app/record/unpack.h"
-#include "app/run/run.h"
 #include "app/run/simulate_input.h"
+#include "app/run/stepped_run.h"
 
 namespace twinarm {
 
@@ -21,10 +21,10 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
 void describe_frames(const SimulatePlan& prepared, RecordingHeader& header);
 
 // Without the rows of the balances.
-RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
+RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared);
 
 // Adds those rows, by index of their names; new names are appended.
-void add_energy_balances(const RunView& run, std::vector<std::string>& names,
+void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
                          std::vector<std::string>& momentum_names, RecordedFrame& frame);
 
 // RunWatch::look of a recorded run.
@@ -33,8 +33,8 @@ class RunRecorder {
   // `every` 0: each step.
   RunRecorder(const std::filesystem::path& file, RecordingHeader header,
               const SimulatePlan& prepared, double every = 0);
-  void look(RunView& run);
-  void write(RunView& run);
+  void look(SteppedRun& run);
+  void write(SteppedRun& run);
   void alarm(const std::string& words) { writer_.alarm(words); }
   void finish(const std::string& how) { writer_.finish(how); }
 

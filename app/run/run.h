@@ -19,18 +19,7 @@
 
 namespace twinarm {
 
-// A run between two steps, for recordings.
-class RunView {
- public:
-  virtual ~RunView() = default;
-  virtual long step() const = 0;  // number of steps taken
-  virtual const Simulation& simulation() const = 0;
-  virtual const SceneContacts* contacts() const = 0;          // null for a URDF
-  virtual std::vector<EnergyRow> energy_balance() const = 0;  // `numerical` last
-  virtual std::vector<EnergyRow> input_work() const = 0;      // work of the targets since the start
-  virtual std::vector<MomentumRow> momentum() const = 0;
-  virtual std::string memory() = 0;  // serialized state, from which the run can be resumed
-};
+class SteppedRun;  // app/run/stepped_run.h
 
 // Diagnostic::code if a run cannot be resumed from the state of another one.
 inline constexpr std::string_view kOtherMemory = "run.other-memory";
@@ -92,14 +81,14 @@ struct RunWatch {
   std::function<void(const std::string&)> warn;  // before the run; also in the result
   // At the times of the plan, in their order.
   std::function<void(double t, const State<double>&)> sample = [](double, const State<double>&) {};
-  std::function<void(RunView&)> look;              // at the start and after each step
+  std::function<void(SteppedRun&)> look;           // at the start and after each step
   std::function<std::string(const Alarm&)> alarm;  // at most once; returns its text
   std::function<void(double t)> tick;              // after each step; may throw
   // Called within long steps; true ends the step, and tick(), which must throw, is called.
   bool (*interrupted)() = nullptr;
 };
 
-// The part of RunView::memory() that Simulation::serialize reads.
+// The part of SteppedRun::memory() that Simulation::serialize reads.
 StateArchive simulation_memory(const std::string& memory);
 
 // Samples between two grid times are computed by a side step from the earlier one and do not change

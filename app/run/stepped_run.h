@@ -17,7 +17,7 @@
 
 namespace twinarm {
 
-class SteppedRun final : public RunView {
+class SteppedRun {
  public:
   // Keeps references to its arguments; `outside` may be null. `from`: resumes there, bit by bit if
   // nothing has changed. Throws InputError if its state is of another scene.
@@ -35,15 +35,15 @@ class SteppedRun final : public RunView {
   const SimulateResult& result() const { return result_; }  // so far, without balances
   SimulateResult finish();                                  // once, at the end
 
-  long step() const override { return result_.steps; }
-  const Simulation& simulation() const override { return sim_; }
-  const SceneContacts* contacts() const override { return contacts_ ? &*contacts_ : nullptr; }
-  std::vector<EnergyRow> energy_balance() const override;
-  std::vector<EnergyRow> input_work() const override { return energy_balance_->input_work(); }
-  std::vector<MomentumRow> momentum() const override {
-    return momentum_->rows(sim_, contacts(), outside_);
-  }
-  std::string memory() override;
+  long step() const { return result_.steps; }  // number of steps taken
+  const Simulation& simulation() const { return sim_; }
+  // Null for a URDF.
+  const SceneContacts* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
+  std::vector<EnergyRow> energy_balance() const;  // `numerical` last
+  // Work of the targets since the start.
+  std::vector<EnergyRow> input_work() const { return energy_balance_->input_work(); }
+  std::vector<MomentumRow> momentum() const { return momentum_->rows(sim_, contacts(), outside_); }
+  std::string memory();  // serialized state, from which the run can be resumed
 
  private:
   void add_forces(const SimulateInput& simulated);

@@ -148,7 +148,7 @@ State<double> record_again(const std::filesystem::path& scene,
   progress.stage("record", 1);
   State<double> end = plan.input.robot.state.x;
   RunWatch watch;
-  watch.look = [&](RunView& run) { end = run.simulation().state(); };
+  watch.look = [&](SteppedRun& run) { end = run.simulation().state(); };
   watch.tick = [&](double t) { progress.advance(t, plan.run.duration); };
   record_plan(options, plan, watch);
   progress.finish();

@@ -27,7 +27,7 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
   const Model<double>& model = prepared.input.robot.model;
   double largest = 0;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
+  watch.look = [&](SteppedRun& run) {
     const auto step = static_cast<std::size_t>(run.step());
     for (std::size_t j = 0; j < angles.size(); ++j) {
       if (step >= angles[j].size()) continue;

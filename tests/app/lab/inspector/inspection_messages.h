@@ -8,7 +8,7 @@
 
 #include "app/data/value.h"
 #include "app/lab/inspector/body_inspector.h"
-#include "app/run/run.h"
+#include "app/run/stepped_run.h"
 #include "tests/collision/import/robot/helpers.h"
 
 namespace twinarm::testing {
@@ -33,7 +33,7 @@ inline RunSample sample_of(SimulatePlan plan, long steps) {
   RunSample sample;
   RunWatch watch;
   watch.warn = [](const std::string&) {};
-  watch.look = [&](RunView& view) {
+  watch.look = [&](SteppedRun& view) {
     if (view.step() == steps) {
       RecordedFrame& recorded = sample.frame.recorded;
       recorded.step = steps;

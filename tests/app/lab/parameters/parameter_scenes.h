@@ -8,7 +8,7 @@
 #include "app/lab/parameters/gallery.h"
 #include "app/lab/parameters/parameters.h"
 #include "app/record/unpack.h"
-#include "app/run/run.h"
+#include "app/run/stepped_run.h"
 #include "tests/collision/import/robot/helpers.h"
 
 namespace twinarm {
@@ -37,7 +37,7 @@ struct ShortRun {
 inline ShortRun ran(const SimulatePlan& plan, long steps) {
   ShortRun short_run;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
+  watch.look = [&](SteppedRun& run) {
     double fastest = 0;
     for (const double v : run.simulation().state().qd) fastest = std::max(fastest, std::abs(v));
     if (run.step() <= steps / 10) short_run.early = std::max(short_run.early, fastest);

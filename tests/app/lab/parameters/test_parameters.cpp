@@ -233,7 +233,7 @@ damping = 0
               {"coupling.discretization=explicit", "step=1e-4", "robot.qd.joint1=0.001"}, 20000);
   double quarter = 0;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
+  watch.look = [&](SteppedRun& run) {
     if (quarter == 0 && run.simulation().state().qd[0] < 0) quarter = run.simulation().state().t;
   };
   run_plan(swing.input, swing.run, watch);

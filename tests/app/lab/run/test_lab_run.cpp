@@ -13,7 +13,7 @@ std::filesystem::path recorded(const TemporaryFolder& folder, const SimulateOpti
   const std::filesystem::path file = folder.path() / "run.twinrec";
   RunRecorder recorder(file, header_of(options, plan, {}), plan, period);
   RunWatch watch;
-  watch.look = [&](RunView& run) { recorder.look(run); };
+  watch.look = [&](SteppedRun& run) { recorder.look(run); };
   run_plan(plan.input, plan.run, watch);
   recorder.finish("done");
   return file;
@@ -28,7 +28,7 @@ TEST_CASE("lab run: steps equal those of `simulate` bit for bit, after its files
     const SimulatePlan plan = prepare_simulation(options);
     std::vector<std::string> memories;
     RunWatch watch;
-    watch.look = [&](RunView& run) {
+    watch.look = [&](SteppedRun& run) {
       if (run.step() % 100 == 0) memories.push_back(run.memory());
     };
     run_plan(plan.input, plan.run, watch);
