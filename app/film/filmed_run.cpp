@@ -17,12 +17,13 @@ constexpr int kAround = 240;          // instants of the whole run
 constexpr double kMaxPictures = 1e5;  // of a film
 
 // The initial state has no forces yet: those of the first step are shown.
-void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
-  for (RunInstant& instant : instants)
-    if (instant.x.t < first.x.t) {
-      instant.coupling_forces = first.coupling_forces;
-      instant.contacts = first.contacts;
-    }
+void take_forces_of_first_step(FilmedRun& run, const RunInstant& first) {
+  for (std::vector<RunInstant>* instants : {&run.shown, &run.around})
+    for (RunInstant& instant : *instants)
+      if (instant.x.t < first.x.t) {
+        instant.coupling_forces = first.coupling_forces;
+        instant.contacts = first.contacts;
+      }
 }
 
 std::vector<double> picture_times(double from, double to, double interval) {
@@ -54,14 +55,7 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   auto recording = std::make_unique<const Recording>(file);
   for (const std::string& note : recording->notes()) print_error("twinarm: {}\n", note);
   auto files = std::make_unique<const UnpackedRun>(recording->header());
-  const auto prepared = [&] {
-    try {
-      return prepare_simulation(files->options());
-    } catch (const InputError& error) {
-      throw files->with_original_paths(error);
-    }
-  };
-  FilmedRun run{{}, nullptr, nullptr, prepared(), {}, {}};
+  FilmedRun run{{}, nullptr, nullptr, files->prepare(files->options()), {}, {}};
   const Model<double>& model = run.model();
   const std::size_t size = recording->size();
   const auto frame_at = [&](std::size_t n) { return instant_of(recording->frame(n), model); };
@@ -83,11 +77,7 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   }
   const std::size_t stride = std::max<std::size_t>(1, size / kAround);
   for (std::size_t n = 0; n < size; n += stride) run.around.push_back(frame_at(n));
-  if (size > 1) {
-    const RunInstant second = frame_at(1);
-    take_forces_of_first_step(run.shown, second);
-    take_forces_of_first_step(run.around, second);
-  }
+  if (size > 1) take_forces_of_first_step(run, frame_at(1));
   run.recording = std::move(recording);
   run.files = std::move(files);
   return run;
@@ -161,10 +151,7 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   if (run.shown.empty())
     throw InputError({{"", 0, "--at", "the run stopped before that time",
                        fmt::format("give one up to {:g} s", result.end), "film.time"}});
-  if (first) {
-    take_forces_of_first_step(run.shown, *first);
-    take_forces_of_first_step(run.around, *first);
-  }
+  if (first) take_forces_of_first_step(run, *first);
   return run;
 }
 

@@ -101,6 +101,12 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
       options.robot.gravity = changes[i].value;
     else if (std::ranges::find(kept, changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
+SimulatePlan UnpackedRun::prepare(const SimulateOptions& options) const try {
+  return prepare_simulation(options);
+} catch (const InputError& error) {
+  throw with_original_paths(error);
+}
+
                   "a branch keeps step, integrator, duration and contact model of its recording",
                   "run `twinarm simulate` with another " + changes[i].path, "change.method"});
     else if (is_scene)
@@ -184,13 +190,7 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   options.integrator = "semi-implicit";
   options.step = recording.header().step;
   options.tolerance.reset();
-  auto prepared = [&] {
-    try {
-      return prepare_simulation(options);
-    } catch (const InputError& error) {
-      throw files->with_original_paths(error);
-    }
-  }();
+  SimulatePlan prepared = files->prepare(options);
   prepared.run.integrator =
       find_integrator(recording.header().integrator).value_or(Integrator::semi_implicit);
   RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};

@@ -27,6 +27,8 @@ class UnpackedRun {
   explicit UnpackedRun(RecordingHeader header);
 
   const RecordingHeader& header() const { return header_; }
+  // The run with such options; its diagnostics name the original paths.
+  SimulatePlan prepare(const SimulateOptions& options) const;
   const std::filesystem::path& folder() const { return copies_.folder(); }
   // Options of the run with the paths of the copies; missing copies are written again. *this must
   // outlive what is read with these options.
