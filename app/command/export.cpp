@@ -40,7 +40,7 @@ std::vector<std::string> csv_header(const Recording& recording,
   const auto add_axes = [&](const std::string& name, const char* unit) {
     for (const char* axis : {"/x", "/y", "/z"}) names.push_back(name + axis + unit);
   };
-  for (const RecordedColumn& column : header.columns) names.push_back(column.with_unit());
+  for (const RunColumn& column : header.columns) names.push_back(column.with_unit());
   for (const std::string& coupling : header.couplings)
     add_axes("coupling/" + coupling, "[N or N m]");
   for (const GeometryPair& pair : pairs) add_axes(contact_name(header, pair), "[N]");
@@ -112,7 +112,7 @@ void write_header(JsonWriter& json, const Recording& recording) {
   json.members({{"program", header.program},
                 {"format", recording.version()},
                 {"command", header.command},
-                {"model", header.run.model.string()}});
+                {"model", header.run.robot.model.string()}});
   json.key("files").list(header.files, [&](const RecordedFile& file) { json.text(file.path); });
   json.members({{"integrator", header.integrator},
                 {"step", header.step},
@@ -126,7 +126,7 @@ void write_header(JsonWriter& json, const Recording& recording) {
     json.key("momentum").object({{"linear", "N s"}, {"angular", "N m s"}});
     json.members({{"force", "N"}, {"moment", "N m"}, {"couplings", "N or N m"}, {"depth", "m"}});
   });
-  json.key("columns").list(header.columns, [&](const RecordedColumn& column) {
+  json.key("columns").list(header.columns, [&](const RunColumn& column) {
     json.object({{"name", column.name}, {"unit", column.unit}});
   });
 }

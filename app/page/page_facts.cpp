@@ -31,7 +31,7 @@ void write_pairs(JsonWriter& json, const RecordingHeader& header, const FilmedRu
   };
   const SceneModel* scene = run.plan.input.scene.get();
   json.key("facts").begin_array();
-  fact("model", std::filesystem::path(header.run.model).filename().string());
+  fact("model", std::filesystem::path(header.run.robot.model).filename().string());
   fact("integrator", header.integrator);
   fact("step", number_text(1e3 * header.step) + " ms");
   fact("duration", number_text(header.duration) + " s");
@@ -137,7 +137,7 @@ std::string command_line(const std::vector<std::string>& words) {
 
 void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& view, double rate) {
   const RecordingHeader& header = run.recording->header();
-  json.members({{"title", std::filesystem::path(header.run.model).stem().string()},
+  json.members({{"title", std::filesystem::path(header.run.robot.model).stem().string()},
                 {"command", command_line(header.command)}});
   write_pairs(json, header, run, rate);
   write_tables(json, run);

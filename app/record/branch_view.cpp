@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kTableRows = 20, kTableWidth = 98, kCurves = 4;
 
 // The motion that a column belongs to: a coordinate, a quaternion, or the position of a free body.
-std::string motion_of(const RecordedColumn& column, const Replay& branch) {
+std::string motion_of(const RunColumn& column, const Replay& branch) {
   const std::string before_last = column.name.substr(0, column.name.rfind('/'));
   if (column.name.starts_with("q/")) return column.unit == "1" ? before_last : column.name;
   for (const std::string& body : branch.bodies)
@@ -62,7 +62,7 @@ void print_values(const Recording& recording, const Replay& branch) {
   const std::vector<ValueDifference> all = differences(recording, branch);
   for (const auto& [c, size] : all) {
     if (size == 0) break;
-    const RecordedColumn& column = recording.header().columns[c];
+    const RunColumn& column = recording.header().columns[c];
     const std::string heading = column.name + " [" + column.unit + "]";
     width += std::max(heading.size(), max_number) + max_number + 2 * between;
     if (!columns.empty() && width > kTableWidth) break;
@@ -199,7 +199,7 @@ void draw_branch(const Recording& recording, const Replay& recorded, const Repla
     throw InputError({{file.string(), 0, "--plot", "there is no motion to draw",
                        "record a run that moves, or leave --plot out", "plot.nothing-moves"}});
   const std::size_t shown = found.front().column;
-  const RecordedColumn& column = recording.header().columns[shown];
+  const RunColumn& column = recording.header().columns[shown];
   std::vector<double> t, first, second;
   for (std::size_t n = 0; n < branch.frames.size(); ++n) {
     t.push_back(branch.frames[n].t);

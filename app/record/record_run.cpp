@@ -177,11 +177,9 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
 void describe_frames(const SimulatePlan& prepared, RecordingHeader& header) {
   header.integrator = integrator_name(prepared.run.integrator);
   header.step = prepared.run.step;
-  header.columns.clear();
+  header.columns = run_columns(prepared.input.robot);
   header.couplings.clear();
   header.geometries.clear();
-  for (const RunColumn& column : run_columns(prepared.input.robot))
-    header.columns.push_back({column.name, column.unit});
   if (!prepared.input.scene) return;
   const SceneModel& scene = *prepared.input.scene;
   for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
@@ -193,10 +191,14 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   RecordingHeader header;
   header.program = kProgramVersion;
   header.command = std::move(command);
-  header.run = recorded_run(options);
+  header.run = options;
+  header.run.robot.roots = {};
+  header.run.robot.changes = {};  // the recorded scene contains them
+  for (std::filesystem::path* path : {&header.run.robot.model, &header.run.robot.state})
+    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
   if (options.scene || !options.robot.changes.empty()) {
     DiagnosticList faults;  // the plan has reported them
-    header.files.push_back({header.run.model.string(), to_toml(scene_tree(options, faults))});
+    header.files.push_back({header.run.robot.model.string(), to_toml(scene_tree(options, faults))});
   } else {
     add_file(header.files, options.robot.model);
   }

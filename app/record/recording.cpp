@@ -24,13 +24,13 @@ constexpr std::size_t kMinText = 8, kMinContact = 16 + 4 * sizeof(Vector3);  // 
 // Calls f(name, member) for all options of a run, in the order of the file.
 template <class Run, class F>
 void for_each_option(Run& run, const F& f) {
-  f("model", run.model);
-  f("state", run.state);
-  f("gravity", run.gravity);
-  f("floating", run.floating);
-  f("friction", run.friction);
-  f("armature", run.armature);
-  f("strict", run.strict);
+  f("model", run.robot.model);
+  f("state", run.robot.state);
+  f("gravity", run.robot.gravity);
+  f("floating", run.robot.floating);
+  f("friction", run.robot.friction);
+  f("armature", run.robot.armature);
+  f("strict", run.robot.strict);
   f("duration", run.duration);
   f("step", run.step);
   f("tolerance", run.tolerance);
@@ -42,11 +42,11 @@ void for_each_option(Run& run, const F& f) {
 // Those that are newer than version 2; missing in recordings made before.
 template <class Run, class F>
 void for_each_new_option(Run& run, const F& f) {
-  f("density", run.missing.density);
-  f("min_mass", run.missing.min_mass);
+  f("density", run.robot.missing.density);
+  f("min_mass", run.robot.missing.min_mass);
 }
 
-void visit_run(StateArchive& memory, RecordedRun& run) {
+void visit_run(StateArchive& memory, RunSettings& run) {
   for_each_option(run, [&]<class T>(const char*, T& option) {
     if constexpr (std::is_same_v<T, std::filesystem::path>) {
       std::string text = option.string();
@@ -120,7 +120,7 @@ void read_list(const Json& list, std::vector<T>& items, F from_json) {
   for (const Json& item : list) items.push_back(from_json(item));
 }
 
-Json run_json(const RecordedRun& run) {
+Json run_json(const RunSettings& run) {
   Json json = Json::object();
   for_each_option(run, [&]<class T>(const char* name, const T& option) {
     if constexpr (std::is_same_v<T, bool>)
@@ -136,8 +136,8 @@ Json run_json(const RecordedRun& run) {
   return json;
 }
 
-RecordedRun run_of(const Json& json) {
-  RecordedRun run;
+RunSettings run_of(const Json& json) {
+  RunSettings run;
   for_each_option(run, [&]<class T>(const char* name, T& option) {
     if constexpr (std::is_same_v<T, bool>)
       json.at(name).get_to(option);
@@ -164,7 +164,7 @@ RecordingHeader header_from(const Json& json) {
   json.at("duration").get_to(header.duration);
   json.at("seed").get_to(header.seed);
   read_list(json.at("columns"), header.columns, [](const Json& column) {
-    return RecordedColumn{text_of(column.at("name")), text_of(column.at("unit"))};
+    return RunColumn{text_of(column.at("name")), text_of(column.at("unit")), {}, {}};
   });
   read_list(json.at("couplings"), header.couplings, text_of);
   read_list(json.at("geometries"), header.geometries, text_of);
@@ -218,7 +218,7 @@ void visit_version_2(StateArchive& memory, RecordingHeader& header) {
   visit_run(memory, header.run);
   memory.visit(header.integrator, header.step, header.duration, header.seed);
   visit_all(memory, header.columns, 2 * kMinText,
-            [&](RecordedColumn& column) { memory.visit(column.name, column.unit); });
+            [&](RunColumn& column) { memory.visit(column.name, column.unit); });
   memory.visit(header.couplings, header.geometries);
 }
 
@@ -242,7 +242,7 @@ std::string header_text(const RecordingHeader& header) {
       {"seed", header.seed},
       {"columns",
        list_json(header.columns,
-                 [](const RecordedColumn& column) {
+                 [](const RunColumn& column) {
                    return Json{{"name", text_json(column.name)}, {"unit", text_json(column.unit)}};
                  })},
       {"couplings", list_json(header.couplings, text_json)},

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/run/simulate_input.h"
+#include "app/run/run.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/state_archive.h"
@@ -21,24 +21,15 @@ struct RecordedFile {
   std::string path, bytes;  // absolute path
 };
 
-struct RecordedColumn {
-  std::string name, unit;
-
-  std::string with_unit() const { return name + "[" + unit + "]"; }
-};
-
-// Options of the run, as given, with absolute paths.
-struct RecordedRun : RobotOptions, RunSettings {};
-
 struct RecordingHeader {
   std::string program;  // its version
   std::vector<std::string> command;
   std::vector<RecordedFile> files;  // the model or scene first
-  RecordedRun run;
+  RunSettings run;                  // as given, with absolute paths
   std::string integrator;
-  double step = 0, duration = 0;        // [s]
-  long seed = 0;                        // runs have no randomness
-  std::vector<RecordedColumn> columns;  // of RecordedFrame::values
+  double step = 0, duration = 0;   // [s]
+  long seed = 0;                   // runs have no randomness
+  std::vector<RunColumn> columns;  // of RecordedFrame::values; without kinds if read
   std::vector<std::string> couplings;
   std::vector<std::string> geometries;  // indexed by RecordedContact
 };

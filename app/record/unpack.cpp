@@ -31,24 +31,6 @@ void update_names(Value& value) {
 
 }  // namespace
 
-SimulateOptions options_of(const RecordedRun& run) {
-  SimulateOptions options;
-  options.robot = run;
-  static_cast<RunSettings&>(options) = run;
-  return options;
-}
-
-RecordedRun recorded_run(const SimulateOptions& options) {
-  RecordedRun run;
-  static_cast<RobotOptions&>(run) = options.robot;
-  static_cast<RunSettings&>(run) = options;
-  run.roots = {};
-  run.changes = {};  // the recorded scene contains them
-  for (std::filesystem::path* path : {&run.model, &run.state})
-    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
-  return run;
-}
-
 UnpackedRun::UnpackedRun(RecordingHeader header) : header_(std::move(header)) {
   write_missing();
 }
@@ -89,7 +71,8 @@ void UnpackedRun::redirect_paths(Value& value) const {
 
 SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   write_missing();
-  SimulateOptions options = options_of(header_.run);
+  SimulateOptions options;
+  static_cast<RunSettings&>(options) = header_.run;
   options.robot.model = copy_of(options.robot.model);
   if (!options.robot.state.empty()) options.robot.state = copy_of(options.robot.state);
   const bool is_scene = options.robot.model.extension() == ".toml";
@@ -101,12 +84,6 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
       options.robot.gravity = changes[i].value;
     else if (std::ranges::find(kept, changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
-SimulatePlan UnpackedRun::prepare(const SimulateOptions& options) const try {
-  return prepare_simulation(options);
-} catch (const InputError& error) {
-  throw with_original_paths(error);
-}
-
                   "a branch keeps step, integrator, duration and contact model of its recording",
                   "run `twinarm simulate` with another " + changes[i].path, "change.method"});
     else if (is_scene)
@@ -122,6 +99,12 @@ SimulatePlan UnpackedRun::prepare(const SimulateOptions& options) const try {
       apply(of_scene[i].first, of_scene[i].second, tree, found);
   };
   return options;
+}
+
+SimulatePlan UnpackedRun::prepare(const SimulateOptions& options) const try {
+  return prepare_simulation(options);
+} catch (const InputError& error) {
+  throw with_original_paths(error);
 }
 
 InputError UnpackedRun::with_original_paths(const InputError& error,

@@ -16,10 +16,6 @@
 
 namespace twinarm {
 
-// Conversion between recorded and new options; recorded paths are absolute.
-SimulateOptions options_of(const RecordedRun& run);
-RecordedRun recorded_run(const SimulateOptions& options);
-
 // The recording's files in a temporary folder, which the destructor removes.
 class UnpackedRun {
  public:
@@ -27,12 +23,12 @@ class UnpackedRun {
   explicit UnpackedRun(RecordingHeader header);
 
   const RecordingHeader& header() const { return header_; }
-  // The run with such options; its diagnostics name the original paths.
-  SimulatePlan prepare(const SimulateOptions& options) const;
   const std::filesystem::path& folder() const { return copies_.folder(); }
   // Options of the run with the paths of the copies; missing copies are written again. *this must
   // outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
+  // The run with such options; its diagnostics name the original paths.
+  SimulatePlan prepare(const SimulateOptions& options) const;
   // Diagnostics of such a run with the original paths; those caused by a change name that change.
   InputError with_original_paths(const InputError& error,
                                  const std::vector<Change>& changes = {}) const;

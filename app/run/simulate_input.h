@@ -19,6 +19,7 @@ namespace twinarm {
 
 // Options on which the results of a run depend. Defaults: the scene's; else 0.001 s, semi-implicit.
 struct RunSettings {
+  RobotOptions robot;
   std::optional<double> duration, step;  // [s]
   std::optional<double> tolerance;       // of dopri5, relative and absolute
   std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
@@ -27,7 +28,6 @@ struct RunSettings {
 };
 
 struct SimulateOptions : RunSettings {
-  RobotOptions robot;
   std::optional<double> every;  // output interval [s]
   std::string at;               // output times "t1,t2,.." [s]
   bool json = false, csv = false;

@@ -11,7 +11,7 @@ namespace twinarm {
 namespace {
 
 // A change of what is an option of `simulate`, not a key of the scene's items.
-bool apply_option(const Change& change, SimulateOptions& options, DiagnosticList& faults) {
+bool apply_option(const Change& change, RunSettings& options, DiagnosticList& faults) {
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
@@ -34,7 +34,7 @@ bool apply_option(const Change& change, SimulateOptions& options, DiagnosticList
 }
 
 // The changes of the scene itself; the others are written to `options`.
-std::vector<Change> scene_changes(const std::vector<Change>& changes, SimulateOptions& options,
+std::vector<Change> scene_changes(const std::vector<Change>& changes, RunSettings& options,
                                   DiagnosticList& faults) {
   std::vector<Change> others;
   for (const Change& change : changes)
@@ -89,18 +89,17 @@ LabScene::LabScene(RecordingHeader header, FileRoots roots) : roots_(std::move(r
 }
 
 bool LabScene::is_scene() const {
-  return files_->header().run.model.extension() == ".toml";
+  return files_->header().run.robot.model.extension() == ".toml";
 }
 
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
-  SimulateOptions changed = options_of(files_->header().run);
+  RunSettings changed = files_->header().run;
   DiagnosticList faults;
   const std::vector<Change> others = scene_changes(changes, changed, faults);
   faults.check();
   try {
     SimulateOptions options = files_->options(others);
-    static_cast<RunSettings&>(options) = changed;
-    options.robot.gravity = changed.robot.gravity;
+    scene_changes(changes, options, faults);
     options.has_operator = true;
     options.robot.roots = roots_;
     SimulatePlan prepared = prepare_simulation(options);
@@ -118,7 +117,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
 }
 
 Value LabScene::tree(const std::vector<Change>& changes) const {
-  SimulateOptions changed = options_of(files_->header().run);
+  RunSettings changed = files_->header().run;
   DiagnosticList faults;
   const std::vector<Change> others = scene_changes(changes, changed, faults);
   Value scene = read_toml(files_->options().robot.model);
@@ -141,7 +140,7 @@ std::shared_ptr<const LabScene> LabScene::edited(const std::vector<Change>& chan
   Value scene = tree(changes);
   apply(edit, *plan(changes)->prepared.input.scene, scene);
   RecordingHeader changed = header(changes, {});
-  put_file(changed, changed.run.model, to_toml(scene));
+  put_file(changed, changed.run.robot.model, to_toml(scene));
   return std::make_shared<const LabScene>(std::move(changed), roots_);
 }
 
@@ -153,19 +152,17 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   const std::unique_ptr<Plan> planned = plan(changes);
   RecordingHeader header = files_->header();
   DiagnosticList faults;
-  SimulateOptions options = options_of(header.run);
-  scene_changes(changes, options, faults);
-  header.run = recorded_run(options);
+  scene_changes(changes, header.run, faults);
   describe_frames(planned->prepared, header);
   header.run.step = header.step;
   if (!is_scene()) return header;
-  const std::filesystem::path log = header.run.model.parent_path() / "lab_operator.csv";
+  const std::filesystem::path log = header.run.robot.model.parent_path() / "lab_operator.csv";
   Value scene = tree(changes);
   for (Value& list : scene.members)
     for (const std::size_t index : hand.couplings)
       if (list.key == "coupling" && index < list.items.size() && !hand.log.empty())
         put_last(list.items[index], "target", Value::of(log.string()));
-  put_file(header, header.run.model, to_toml(scene));
+  put_file(header, header.run.robot.model, to_toml(scene));
   if (!hand.log.empty()) put_file(header, log, hand.log);
   return header;
 }

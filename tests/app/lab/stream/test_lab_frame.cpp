@@ -197,9 +197,8 @@ TEST_CASE("lab frame: the run that was left is shown only where it differs") {
   const auto& columns = watched.header.columns;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = std::string("links/spinning/") + "xyz"[c];
-    const auto found =
-        std::find_if(columns.begin(), columns.end(),
-                     [&](const RecordedColumn& column) { return column.name == name; });
+    const auto found = std::find_if(columns.begin(), columns.end(),
+                                    [&](const RunColumn& column) { return column.name == name; });
     REQUIRE(found != columns.end());
     CHECK(read.position[3 * first + c] ==
           doctest::Approx(values[static_cast<std::size_t>(found - columns.begin())]).epsilon(1e-6));
