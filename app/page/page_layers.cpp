@@ -101,11 +101,8 @@ Image halved(const Image& image) {
 }  // namespace
 
 PageLayers::PageLayers(SceneView& view) : view_(view) {
-  for (const LayerWords& words : layer_words({&all_overlays()})) {
-    layers_.emplace_back();
-    layers_.back().name = words.name;
-    layers_.back().what = words.what;
-  }
+  for (const LayerWords& words : layer_words({&all_overlays()}))
+    static_cast<LayerWords&>(layers_.emplace_back()) = words;
   std::vector<std::string> usual = usual_overlays(Overlay::Shown::on_pages);
   usual.emplace_back("bodies");
   show_at_first(usual);
@@ -117,33 +114,23 @@ void PageLayers::show_at_first(const std::vector<std::string>& names) {
 }
 
 void PageLayers::add_frame(const Snapshot& snapshot) {
-  std::vector<Drawn> drawn = draw(view_, snapshot, parse_overlays("all"));
-  drawn.push_back(end_of_list());
+  const std::vector<Drawn> drawn = draw(view_, snapshot, parse_overlays("all"));
   for (std::size_t i = 0; i + 1 < drawn.size(); ++i)
     add_entries(layers_[i], drawn[i], drawn[i + 1]);
-}
-
-Drawn PageLayers::end_of_list() const {
-  const DrawList& list = view_.list;
-  return {nullptr, list.instances.size(), list.labels.size(), list.legend.size()};
 }
 
 // Of the cast only one body's parts are on stage at a time.
 void PageLayers::add_apart(const Snapshot& snapshot) {
   const SceneMeshes all = view_.cast;
   for (std::size_t body = 0; body < view_.model->parent.size(); ++body) {
-    SceneMeshes& meshes = view_.cast;
-    meshes.ties.clear();
-    meshes.parts.clear();
-    meshes.planes.clear();
-    for (const ScenePart& part : all.parts)
-      if (part.body == body) meshes.parts.push_back(part);
-    for (const ScenePlane& plane : all.planes)
-      if (plane.body == body) meshes.planes.push_back(plane);
-    draw(view_, snapshot, {});
-    layers_.emplace_back();
-    layers_.back().name = "body/" + (body == 0 ? "world" : view_.model->body_name[body]);
-    add_entries(layers_.back(), {}, end_of_list());
+    view_.cast = all;
+    view_.cast.ties.clear();
+    const auto is_other = [&](const auto& part) { return part.body != body; };
+    std::erase_if(view_.cast.parts, is_other);
+    std::erase_if(view_.cast.planes, is_other);
+    const std::vector<Drawn> drawn = draw(view_, snapshot, {});
+    layers_.emplace_back().name = "body/" + (body == 0 ? "world" : view_.model->body_name[body]);
+    add_entries(layers_.back(), drawn[0], drawn[1]);
   }
   view_.cast = all;
 }

@@ -67,8 +67,7 @@ void write_color(JsonWriter& json, const Color& color);
 // Key view: camera, light, floor.
 void write_view(JsonWriter& json, const SceneView& view);
 
-struct PageLayer {
-  std::string name, what;
+struct PageLayer : LayerWords {
   bool shown = false;  // initially
   std::vector<LegendLine> legend;
   // Frame f has the entries first[f] to first[f + 1].
@@ -91,7 +90,6 @@ class PageLayers {
  private:
   // Entries of the list in [from, to).
   void add_entries(PageLayer& layer, const Drawn& from, const Drawn& to);
-  Drawn end_of_list() const;
   std::uint32_t number_of(const std::string& text);
 
   SceneView& view_;

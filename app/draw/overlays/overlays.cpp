@@ -61,6 +61,7 @@ std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
       for (std::size_t i = first; i < list.instances.size(); ++i)
         list.instances[i].seen_through = overlay.options.seen_through;
     }
+  drawn.push_back({nullptr, list.instances.size(), list.labels.size(), list.legend.size()});
   return drawn;
 }
 

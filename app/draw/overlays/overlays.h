@@ -39,10 +39,10 @@ std::vector<std::string> parse_overlays(const std::string& text);
 
 // First entries of an overlay in view.list; they end where the next overlay begins.
 struct Drawn {
-  const Overlay* overlay = nullptr;  // null: the bodies
+  const Overlay* overlay = nullptr;  // null: the bodies, or the end of the list
   std::size_t instance = 0, label = 0, legend = 0;
 };
-// Fills view.list: the bodies, then the named overlays by `place`.
+// Fills view.list: the bodies, then the named overlays by `place`; the last entry is the end.
 std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
                         const std::vector<std::string>& overlays);
 

@@ -55,8 +55,7 @@ void LabView::take_legend(std::size_t layer, const Drawn& from, std::size_t end)
 // Each layer ends in the columns, drawn or not.
 void LabView::draw_layers(const Snapshot& snapshot, const std::vector<std::string>& wanted) {
   const DrawList& list = stage_.list;
-  std::vector<Drawn> drawn = draw(stage_, snapshot, wanted);
-  drawn.push_back({nullptr, list.instances.size(), list.labels.size(), list.legend.size()});
+  const std::vector<Drawn> drawn = draw(stage_, snapshot, wanted);
   columns_.clear_entries();
   std::size_t next = 0;
   for (std::size_t layer = 0; layer < legends_.size(); ++layer) {
