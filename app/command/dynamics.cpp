@@ -59,30 +59,32 @@ std::string link_table(const RobotInput& input) {
   return table.str();
 }
 
-std::string dynamics_json(const RobotInput& input, const Dynamics& d) {
-  const Coordinates& coordinates = input.coordinates;
-  const Kinematics k = kinematics_at(input.model, input.state.x);
+void write_dynamics(JsonWriter& json, const Coordinates& coordinates, const Dynamics& d) {
   const bool floats = coordinates.floating();
   const Vector3 still = Vector3::Zero();
+  write_by_joint(json.key("qdd"), coordinates, d.qdd);
+  json.key("base_acceleration")
+      .object({{"linear", floats ? Vector3(d.qdd.head<3>()) : still},
+               {"angular", floats ? Vector3(d.qdd.segment<3>(3)) : still}});
+  write_by_joint(json.key("tau_inverse"), coordinates, d.tau_inverse);
+  json.key("base_wrench").object({{"force", d.base_force}, {"torque", d.base_torque}});
+  json.members({{"mass_matrix", d.mass_matrix},
+                {"bias", d.bias},
+                {"gravity", d.gravity},
+                {"kinetic_energy", d.kinetic_energy},
+                {"potential_energy", d.potential_energy},
+                {"mass", d.mass},
+                {"com", d.com},
+                {"linear_momentum", d.linear_momentum},
+                {"angular_momentum", d.angular_momentum}});
+}
 
+// `d` null: the kinematics alone.
+std::string dynamics_json(const RobotInput& input, const Dynamics* d) {
   return answer_text([&](JsonWriter& json) {
-    json.put("joints", coordinates.names());
-    write_by_joint(json.key("qdd"), coordinates, d.qdd);
-    json.key("base_acceleration")
-        .object({{"linear", floats ? Vector3(d.qdd.head<3>()) : still},
-                 {"angular", floats ? Vector3(d.qdd.segment<3>(3)) : still}});
-    write_by_joint(json.key("tau_inverse"), coordinates, d.tau_inverse);
-    json.key("base_wrench").object({{"force", d.base_force}, {"torque", d.base_torque}});
-    json.members({{"mass_matrix", d.mass_matrix},
-                  {"bias", d.bias},
-                  {"gravity", d.gravity},
-                  {"kinetic_energy", d.kinetic_energy},
-                  {"potential_energy", d.potential_energy},
-                  {"mass", d.mass},
-                  {"com", d.com},
-                  {"linear_momentum", d.linear_momentum},
-                  {"angular_momentum", d.angular_momentum}});
-    write_links(json.key("links"), input.model, k);
+    json.put("joints", input.coordinates.names());
+    if (d) write_dynamics(json, input.coordinates, *d);
+    write_links(json.key("links"), input.model, kinematics_at(input.model, input.state.x));
     json.put("warnings", input.warnings);
   });
 }
@@ -166,15 +168,6 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
                      "state.not-finite"}});
 }
 
-std::string kinematics_json(const RobotInput& input) {
-  const Kinematics k = kinematics_at(input.model, input.state.x);
-  return answer_text([&](JsonWriter& json) {
-    json.put("joints", input.coordinates.names());
-    write_links(json.key("links"), input.model, k);
-    json.put("warnings", input.warnings);
-  });
-}
-
 int run_dynamics(const DynamicsOptions& options) {
   RobotInput input = read_robot_input(options.robot);
   if (input.model.nv > kMaxDense)
@@ -183,13 +176,13 @@ int run_dynamics(const DynamicsOptions& options) {
                     input.coordinates.rows(), kMaxDense));
   print_warnings(input.warnings, options.json);
   if (options.robot.kinematic) {
-    fmt::print("{}", options.json ? kinematics_json(input) + "\n" : link_table(input));
+    fmt::print("{}", options.json ? dynamics_json(input, nullptr) + "\n" : link_table(input));
     return 0;
   }
   const Dynamics dynamics = compute_dynamics(input);
   check_finite(options.robot.model.string(), input, dynamics);
   fmt::print("{}\n",
-             options.json ? dynamics_json(input, dynamics) : dynamics_table(input, dynamics));
+             options.json ? dynamics_json(input, &dynamics) : dynamics_table(input, dynamics));
   return 0;
 }
 
