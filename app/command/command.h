@@ -45,6 +45,6 @@ struct Command {
   std::vector<Command> below;  // subcommands, as in "coupling predict"
 };
 
-const std::vector<Command>& commands();  // by file name
+const std::vector<Command>& commands();  // by `place`
 
 }  // namespace twinarm

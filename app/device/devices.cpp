@@ -81,15 +81,6 @@ const std::vector<ScriptedMotion>& scripted_motions() {
   return motions;
 }
 
-const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> kinds = [] {
-    std::vector<DeviceKind> sorted = device_kinds_of_files();
-    std::ranges::sort(sorted, {}, &DeviceKind::place);
-    return sorted;
-  }();
-  return kinds;
-}
-
 std::string device_list() {
   std::string text = "devices:\n";
   for (const DeviceKind& kind : device_kinds())

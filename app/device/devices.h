@@ -24,8 +24,7 @@ struct DeviceKind {
   bool has_motors = false;
   bool stays_inside = false;  // it opens no file, device or socket
 };
-const std::vector<DeviceKind>& device_kinds();
-const std::vector<DeviceKind>& device_kinds_of_files();  // unordered
+const std::vector<DeviceKind>& device_kinds();  // by `place`
 
 // Motions of the virtual device, as in virtual:NAME.
 struct ScriptedMotion {

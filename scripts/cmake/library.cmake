@@ -37,12 +37,13 @@ function(twinarm_library_of_objects)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:twinarm_flags> Eigen3::Eigen ${uses})
 endfunction()
 
-# twinarm_registry(HEADER FILE TYPE TYPE FUNCTION NAME SUFFIX TEXT [NAMESPACE twinarm] [FILES GLOB ..])
+# twinarm_registry(HEADER FILE TYPE TYPE FUNCTION NAME SUFFIX TEXT [NAMESPACE twinarm] [ORDER MEMBER] [FILES GLOB ..])
 # One file, one entry: each file of this folder that matches FILES (*.cpp) defines `TYPE STEM_SUFFIX()`,
-# and the made function `const std::vector<TYPE>& NAME()`, declared in HEADER, lists them in the order of
-# their names. So a new file of the folder is registered by being there. Called after twinarm_library().
+# and the made function `const std::vector<TYPE>& NAME()`, declared in HEADER, lists them by their member
+# ORDER, else by the names of the files. So a new file of the folder is registered by being there. Called
+# after twinarm_library().
 function(twinarm_registry)
-  cmake_parse_arguments(R "" "HEADER;TYPE;FUNCTION;SUFFIX;NAMESPACE" "FILES" ${ARGN})
+  cmake_parse_arguments(R "" "HEADER;TYPE;FUNCTION;SUFFIX;NAMESPACE;ORDER" "FILES" ${ARGN})
   if(NOT R_FILES)
     set(R_FILES *.cpp)
   endif()
@@ -58,15 +59,24 @@ function(twinarm_registry)
     string(APPEND declarations "${R_TYPE} ${stem}${R_SUFFIX}();\n")
     string(APPEND calls "${stem}${R_SUFFIX}(), ")
   endforeach()
+  set(order "")
+  if(R_ORDER)
+    set(order "std::ranges::sort(found, {}, &${R_TYPE}::${R_ORDER});\n    ")
+  endif()
   set(made ${CMAKE_CURRENT_BINARY_DIR}/${R_FUNCTION}.cpp)
   file(CONFIGURE OUTPUT ${made} CONTENT "// Made by twinarm_registry() from the files of a folder.
 #include \"${R_HEADER}\"
+
+#include <algorithm>
 
 namespace ${R_NAMESPACE} {
 
 ${declarations}
 const std::vector<${R_TYPE}>& ${R_FUNCTION}() {
-  static const std::vector<${R_TYPE}> all{${calls}};
+  static const std::vector<${R_TYPE}> all = [] {
+    std::vector<${R_TYPE}> found{${calls}};
+    ${order}return found;
+  }();
   return all;
 }
 

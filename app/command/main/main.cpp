@@ -179,10 +179,8 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("twinarm ") + kProgramVersion,
                        "Print the version and exit");
-  std::vector<Command> listed = commands();
-  std::ranges::sort(listed, {}, &Command::place);
   std::function<int(const Words&)> chosen;
-  for (const Command& command : listed) add_command(app, command, chosen);
+  for (const Command& command : commands()) add_command(app, command, chosen);
   const bool as_json =
       std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
   try {
