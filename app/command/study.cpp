@@ -13,7 +13,6 @@
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/recorded_trace.h"
 #include "coupling/target/synthetic_operator.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
@@ -85,13 +84,7 @@ std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
     throw InputError({{"", 0, "--trace", "cannot be combined with --device " + options.device,
                        "leave --device out, or give --device trace", "option.conflict"}});
   if (is_device(options)) return record_device(options, settings);
-  if (is_device_log(options.trace)) return read_device_log(options.trace);
-  if (!options.trace.empty()) {
-    auto trace = std::make_unique<RecordedTrace>(options.trace);
-    for (const std::string& warning : trace->quality().warnings)
-      print_error("twinarm: warning: {}: {}\n", options.trace.string(), warning);
-    return trace;
-  }
+  if (!options.trace.empty()) return recorded_motion(options.trace);
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
                                              settings.operator_duration, settings.operator_ranges);
 }

@@ -70,13 +70,9 @@ const std::vector<ScriptedMotion>& scripted_motions() {
        }},
       {"synthetic", "[:SEED]", "random reaches with tremor", true, synthetic_motion},
       {"trace", ":FILE", "recorded operator motion, from a CSV file", false,
-       [](const std::string& file) -> std::shared_ptr<const OperatorMotion> {
+       [](const std::string& file) {
          if (file.empty()) refuse_spec("trace", "the file is missing", "give one: trace:hand.csv");
-         if (is_device_log(file)) return read_device_log(file);
-         auto trace = std::make_shared<RecordedTrace>(file);
-         for (const std::string& warning : trace->quality().warnings)
-           print_error("twinarm: warning: {}: {}\n", file, warning);
-         return trace;
+         return recorded_motion(file);
        }}};
   return motions;
 }
@@ -90,6 +86,14 @@ std::string device_list() {
   for (const ScriptedMotion& motion : scripted_motions())
     text += fmt::format("  {:26} {}\n", motion.name + motion.argument, motion.help);
   return text;
+}
+
+std::unique_ptr<OperatorMotion> recorded_motion(const std::filesystem::path& file) {
+  std::unique_ptr<OperatorMotion> motion = read_motion_file(file);
+  if (const auto* trace = dynamic_cast<const RecordedTrace*>(motion.get()))
+    for (const std::string& warning : trace->quality().warnings)
+      print_error("twinarm: warning: {}: {}\n", file.string(), warning);
+  return motion;
 }
 
 std::shared_ptr<const OperatorMotion> scripted_motion(const std::string& spec) {

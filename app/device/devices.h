@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,6 +48,9 @@ std::unique_ptr<InputDevice> open_device(const std::string& spec,
 // Whether it opens no file, device or socket of this machine, so that remote clients may request
 // it. Throws InputError: unknown name.
 bool stays_inside(const std::string& spec);
+
+// A log or a trace; prints the warnings of a trace. Throws InputError.
+std::unique_ptr<OperatorMotion> recorded_motion(const std::filesystem::path& file);
 
 // "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
 std::shared_ptr<const OperatorMotion> scripted_motion(const std::string& spec);
