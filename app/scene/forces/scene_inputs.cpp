@@ -1,6 +1,5 @@
 #include "app/scene/forces/scene_couplings.h"
 
-#include <limits>
 #include <utility>
 
 #include "app/support/text.h"
@@ -10,28 +9,6 @@
 
 namespace twinarm {
 namespace {
-
-// Moves no joint.
-class MotionAtRest final : public OperatorMotion {
- public:
-  OperatorSample sample(double, double) const override { return {}; }
-  double duration() const override { return std::numeric_limits<double>::infinity(); }
-  std::string description() const override { return "at rest"; }
-};
-
-// Refers to a motion without owning it.
-class BorrowedMotion final : public OperatorMotion {
- public:
-  explicit BorrowedMotion(const OperatorMotion& motion) : motion_(motion) {}
-  OperatorSample sample(double t, double toward) const override {
-    return motion_.sample(t, toward);
-  }
-  double duration() const override { return motion_.duration(); }
-  std::string description() const override { return motion_.description(); }
-
- private:
-  const OperatorMotion& motion_;
-};
 
 // Holds the driven joints at their rest positions: without a device, or until an input takes over.
 std::unique_ptr<OperatorMotion> rest_position(const Model<double>& model,
@@ -61,14 +38,13 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
     case CouplingTarget::Kind::synthetic:
       return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration, coupling.ranges);
     case CouplingTarget::Kind::device:
-      if (device) return std::make_unique<BorrowedMotion>(*device);
-      return rest_position(scene.model, coupling);
+      return std::make_unique<OverridableMotion>(rest_position(scene.model, coupling),
+                                                 [device](double, double) { return device; });
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
-      if (!coupling.driven.turned.empty()) return rest_position(scene.model, coupling);
       break;
   }
-  return std::make_unique<MotionAtRest>();
+  return rest_position(scene.model, coupling);
 }
 
 }  // namespace
