@@ -140,20 +140,15 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
   fmt::print("\nTable 2, in degrees: measured (published)\n\n");
   fmt::print("{:24}", "");
   for (const RunResult& result : results.reproduction) fmt::print("{:>18}", result.spec.name);
-  const auto line = [&](const std::string& title, auto measured, auto published) {
-    fmt::print("\n  {:22}", title);
+  // The four numbers of a row, as numbers_of() orders them.
+  const char* const titles[] = {"maximum, joint 1", "maximum, joint 2", "mean, joint 1",
+                                "mean, joint 2"};
+  for (std::size_t i = 0; i < std::size(titles); ++i) {
+    fmt::print("\n  {:22}", titles[i]);
     for (const RunResult& result : results.reproduction)
-      fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
-                                       published(kPaperTable.at(result.spec.name))));
-  };
-  for (std::size_t j = 0; j < 2; ++j)
-    line(
-        fmt::format("maximum, joint {}", j + 1), [j](const RunResult& r) { return r.max_deg[j]; },
-        [j](const PaperRow& p) { return p.max_deg[j]; });
-  for (std::size_t j = 0; j < 2; ++j)
-    line(
-        fmt::format("mean, joint {}", j + 1), [j](const RunResult& r) { return r.mean_deg[j]; },
-        [j](const PaperRow& p) { return p.mean_deg[j]; });
+      fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", numbers_of(result)[i],
+                                       numbers_of(kPaperTable.at(result.spec.name))[i]));
+  }
   fmt::print(
       "\n\n  E3, E4: calibrated gains. E1, E2: the same gains, with another operator motion than "
       "the paper's ({}).\n\n",
