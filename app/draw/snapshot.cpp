@@ -135,11 +135,7 @@ Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body
 // About the centre of mass c from that about the origin: I_c = I_o - m (c.c 1 - c c^T), c = h / m.
 Matrix3 inertia_of(const Model<double>& model, const Kinematics& k, std::size_t body) {
   const Inertia<double>& I = model.I[body];
-  Matrix3 I_B;
-  for (int column = 0; column < 3; ++column) {
-    const Vector3 unit = Vector3::Unit(column);
-    I_B.col(column) = to_eigen(I.I * from_eigen(unit));
-  }
+  Matrix3 I_B = to_eigen(full(I.I));
   if (I.m > 0) {
     const Vector3 h = to_eigen(I.h);
     I_B -= (h.squaredNorm() * Matrix3::Identity() - h * h.transpose()) / I.m;

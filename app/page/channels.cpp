@@ -98,8 +98,7 @@ std::size_t RunChannels::add(const std::string& name, const std::string& unit,
 }
 
 std::size_t RunChannels::place_of(const std::string& name) const {
-  const auto is_it = [&](const RunColumn& channel) { return channel.name == name; };
-  return static_cast<std::size_t>(std::ranges::find_if(all_, is_it) - all_.begin());
+  return static_cast<std::size_t>(std::ranges::find(all_, name, &RunColumn::name) - all_.begin());
 }
 
 bool RunChannels::add_pair(int a, int b) {

@@ -18,8 +18,7 @@ constexpr long kEnergyEvery = 8;    // steps between checks of the energy, which
 
 // The row of this name; a new one is inserted before the last, `numerical`.
 EnergyRow& row_like(const EnergyRow& wanted, std::vector<EnergyRow>& rows) {
-  const auto is_it = [&](const EnergyRow& row) { return row.name == wanted.name; };
-  const auto found = std::ranges::find_if(rows, is_it);
+  const auto found = std::ranges::find(rows, wanted.name, &EnergyRow::name);
   if (found != rows.end()) return *found;
   return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {wanted.kind, wanted.name, 0});
 }
