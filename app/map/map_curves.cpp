@@ -10,16 +10,10 @@
 namespace twinarm {
 namespace {
 
-using Eigen::MatrixXd;
-
 constexpr double kRound = 1e-9;  // of the unit circle
 constexpr int kPoses = 24;       // along the target's motion
 constexpr int kMaxColumns = 96, kRows = 48;
 constexpr int kHalvings = 12;  // of a row
-
-bool is_semi_implicit(Integrator integrator) {
-  return integrator == Integrator::semi_implicit || integrator == Integrator::semi_implicit_xv;
-}
 
 // Whether a step of a linear system is a polynomial of its matrix.
 bool is_polynomial(Integrator integrator) {
@@ -53,31 +47,18 @@ bool is_stable_along_motion(const SimulatePlan& plan) {
   return true;
 }
 
-// Geometric limit of implicit linear couplings, for each revolute joint between link and base: from
-// the distances of its axis from the link's point and from the target.
+// Geometric limit of implicit linear couplings.
 bool is_within_geometry(const SimulatePlan& plan) {
   SceneCouplings& couplings = *plan.input.couplings;
   const Model<double>& model = plan.input.robot.model;
   const State<double>& x = plan.input.robot.state.x;
   const Kinematics k = kinematics_at(model, x);
-  const MatrixXd M = mass_matrix(model, x);
-  for (std::size_t c = 0; c < couplings.size(); ++c) {
-    const SceneCoupling& spec = couplings.spec(c);
-    if (!is_implicit_point(spec)) continue;
-    const Vector3 p = k.position(spec.spring.body, spec.spring.p_L);
-    const Vector3 target = couplings.target(c, 0).k.position(spec.spring.body, spec.spring.p_L);
-    for (auto i = static_cast<std::size_t>(spec.spring.body); i > 0;
-         i = static_cast<std::size_t>(model.parent[i])) {
-      if (model.joint[i] != JointType::revolute) continue;
-      const auto radius = [&](const Vector3& point) {  // the axis is z of the body
-        return (point - k.X_WL[i].p).cross(Vector3(k.R_WB[i].col(2))).norm();
-      };
-      const auto iv = static_cast<Eigen::Index>(model.iv[i]);
-      if (radius(target) >
-          max_target_radius(M(iv, iv), radius(p), spec.spring.k, spec.spring.b, plan.run.step))
-        return false;
-    }
-  }
+  for (std::size_t c = 0; c < couplings.size(); ++c)
+    if (const SceneCoupling& spec = couplings.spec(c);
+        is_implicit_point(spec) &&
+        nearest_target_radius(model, x, k, couplings.target(c, 0).k, spec.spring, plan.run.step)
+                .ratio() > 1)
+      return false;
   return true;
 }
 
@@ -141,7 +122,7 @@ bool has_theory(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   const Integrator integrator = plan.run.integrator;
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
-  if (!is_semi_implicit(integrator) && !is_polynomial(integrator)) return false;
+  if (!facts_of(integrator).implicit_force && !is_polynomial(integrator)) return false;
   return std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
     return c.rate == 0 && !c.printed && !c.soft_limits &&
            (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
@@ -154,7 +135,7 @@ std::string scheme_words(const SimulatePlan& plan) {
     return std::ranges::all_of(
         couplings, [&](const SceneCoupling& c) { return c.discretization == discretization; });
   };
-  if (!is_semi_implicit(plan.run.integrator)) return integrator_name(plan.run.integrator);
+  if (!facts_of(plan.run.integrator).implicit_force) return integrator_name(plan.run.integrator);
   if (is_all(Discretization::explicit_)) return name_of(SteppingScheme::semi_implicit);
   if (is_all(Discretization::semi_implicit)) return name_of(SteppingScheme::implicit_damper);
   if (is_all(Discretization::implicit)) return name_of(SteppingScheme::implicit);
