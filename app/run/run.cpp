@@ -35,11 +35,10 @@ void check_times(const std::vector<double>& times, double duration, DiagnosticLi
 }
 
 void choose_integrator(const SimulateOptions& options, RunPlan& plan, DiagnosticList& faults) {
-  if (const auto found = find_integrator(options.integrator))
-    plan.integrator = *found;
-  else if (!options.integrator.empty())
-    choose("--integrator", options.integrator, names_of(all_integrators), "integrators", faults,
-           "run.integrator");
+  if (!options.integrator.empty())
+    if (const auto found = choose("--integrator", options.integrator, names_of(all_integrators),
+                                  "integrators", faults, "run.integrator"))
+      plan.integrator = all_integrators[*found].integrator;
   if (!options.tolerance) return;
   plan.tolerance = *options.tolerance;
   check_positive("--tolerance", plan.tolerance, faults);
@@ -200,9 +199,7 @@ std::size_t floating_base(const Model<double>& model) {
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
   const Model<double>& model = simulation.mechanism().model;
   const bool has_constraints = simulation.has_constrained_steps();
-  const bool is_semi_implicit = plan.integrator == Integrator::semi_implicit ||
-                                plan.integrator == Integrator::semi_implicit_xv;
-  if (!is_semi_implicit || plan.locates_events) return "";
+  if (!facts_of(plan.integrator).implicit_force || plan.locates_events) return "";
   if (has_constraints && dot(model.gravity, model.gravity) > 0) return "";
   const std::size_t base = floating_base(model);
   if (base == 0) return "";
