@@ -9,6 +9,7 @@
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "app/support/files.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -155,12 +156,13 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   return run;
 }
 
-ShownContact shown(const SceneModel& scene, RecordedContact c) {
+// `moves`: bodies_with_dofs().
+ShownContact shown(const SceneModel& scene, const std::vector<char>& moves, RecordedContact c) {
   const auto body = [&](int g) {
     return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
   };
   const double friction = scene.surface_of_pair(c.a, c.b).friction;
-  if (!moves_by_forces(scene.model, body(c.b)) && moves_by_forces(scene.model, body(c.a))) {
+  if (!moves[body(c.b)] && moves[body(c.a)]) {
     std::swap(c.a, c.b);
     for (Vector3* v : {&c.normal, &c.force, &c.couple}) *v = -*v;
   }
@@ -227,14 +229,6 @@ SceneView view_of(const FilmedRun& run) {
   return view;
 }
 
-bool moves_by_forces(const Model<double>& model, std::size_t body) {
-  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
-    if (model.joint[i] == JointType::prescribed) return false;
-    if (model.joint[i] != JointType::fixed) return true;
-  }
-  return false;
-}
-
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;
   instant.x = recorded_state(simulation_memory(frame.memory), model);
@@ -249,10 +243,11 @@ Snapshot snapshot_of(const SimulateInput& input, SceneCouplings* couplings,
   const SceneModel* scene = input.scene.get();
   if (!scene || !couplings) return snapshot_of(input.robot.model, instant.x);
   Snapshot snapshot = snapshot_of(*scene, *couplings, instant.x, instant.coupling_forces);
+  const std::vector<char> moves = bodies_with_dofs(scene->model);
   const auto count = static_cast<int>(scene->geometries.size());
   for (const RecordedContact& c : instant.contacts)
     if (c.a >= 0 && c.b >= 0 && c.a < count && c.b < count)
-      snapshot.contacts.push_back(shown(*scene, c));
+      snapshot.contacts.push_back(shown(*scene, moves, c));
   return snapshot;
 }
 

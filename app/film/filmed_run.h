@@ -24,9 +24,6 @@ struct RunInstant {
   std::string memory;  // serialized state of the run
 };
 
-// Whether a joint that forces can move is between body and world.
-bool moves_by_forces(const Model<double>& model, std::size_t body);
-
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model);
 // `couplings`: of the scene; null for a robot alone.
 Snapshot snapshot_of(const SimulateInput& input, SceneCouplings* couplings,

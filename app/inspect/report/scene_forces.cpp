@@ -9,6 +9,7 @@
 #include "app/robot/dynamics.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
@@ -154,14 +155,11 @@ class SceneInspector::FirstStep {
                        });
   }
 
-  bool moves(int body) const {
-    for (int b = body; b > 0; b = model_.parent[static_cast<std::size_t>(b)])
-      if (model_.dofs(static_cast<std::size_t>(b)) > 0) return true;
-    return false;
-  }
   void add_contacts() {
     const ContactConstraints* all = contacts_->contacts();
     if (!all) return;
+    const std::vector<char> moved = bodies_with_dofs(model_);
+    const auto moves = [&](int body) { return moved[static_cast<std::size_t>(body)] != 0; };
     std::map<std::pair<int, int>, int> count, number;
     const auto is_active = [](const ContactPoint& p) {
       return !p.force_W.isZero(0) || !p.couple_W.isZero(0);

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "app/draw/overlays/overlays.h"
-#include "app/film/filmed_run.h"
 #include "app/lab/stream/lab_view.h"
 #include "app/page/page_layers.h"
 #include "app/record/recording.h"
 #include "app/support/text.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -34,11 +34,12 @@ void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& 
 
 void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
   const Model<double>& model = plan.input.robot.model;
+  const std::vector<char> moves = bodies_with_dofs(model);
   const int links = plan.input.scene ? plan.input.scene->robot_bodies : model.body_count() - 1;
   json.key("bodies").begin_array();
   for (std::size_t i = 0; i < model.parent.size(); ++i)
     json.object({{"name", i == 0 ? "world" : model.body_name[i]},
-                 {"moves", moves_by_forces(model, i)},
+                 {"moves", moves[i] != 0},
                  {"robot", i > 0 && static_cast<int>(i) <= links}});
   json.end_array();
 }
