@@ -22,7 +22,6 @@ class CoupledStep {
 
   bool is_empty() const { return components_.empty(); }
   double step() const { return step_; }
-  double growth() const { return growth_of(components_, integrator_, step_); }
   bool is_stable() const { return is_stable(components_, step_); }
   bool is_stable_at_step(double step) const { return is_stable(components_, step); }
   // With this gain of a coupling (index in the scene; -1: of all).

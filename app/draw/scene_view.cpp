@@ -156,10 +156,13 @@ void look_at(SceneView& view, const Snapshot& snapshot) {
 
 void look_ahead(SceneView& view, const Snapshot& snapshot) {
   look_at(view, snapshot);
-  view.trace.t.push_back(snapshot.x.t);
-  std::vector<Vector3> places(view.model->parent.size(), Vector3::Zero());
-  for (std::size_t i = 1; i < places.size(); ++i) places[i] = com_of(*view.model, snapshot.k, i);
-  view.trace.p_Wc.push_back(std::move(places));
+  view.trace.add(*view.model, snapshot);
+}
+
+void Trace::add(const Model<double>& model, const Snapshot& snapshot) {
+  t.push_back(snapshot.x.t);
+  std::vector<Vector3>& places = p_Wc.emplace_back(model.parent.size(), Vector3::Zero());
+  for (std::size_t i = 1; i < places.size(); ++i) places[i] = com_of(model, snapshot.k, i);
 }
 
 void settle(SceneView& view) {

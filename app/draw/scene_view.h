@@ -84,6 +84,7 @@ struct Trace {          // paths of bodies
   double span = 1e300;  // time before the snapshot that is drawn [s]
   std::vector<double> t;
   std::vector<std::vector<Vector3>> p_Wc;  // centres of mass, by instant and body
+  void add(const Model<double>& model, const Snapshot& snapshot);
 };
 
 struct SceneView {

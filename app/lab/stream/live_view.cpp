@@ -186,10 +186,7 @@ void extend_trails(SceneView& stage, const Snapshot& snapshot) {
     trace.p_Wc.pop_back();
   }
   if (!trace.t.empty() && t < trace.t.back() + kTrailStep) return;
-  std::vector<Vector3> p_Wc(stage.model->parent.size(), Vector3::Zero());
-  for (std::size_t i = 1; i < p_Wc.size(); ++i) p_Wc[i] = com_of(*stage.model, snapshot.k, i);
-  trace.t.push_back(t);
-  trace.p_Wc.push_back(std::move(p_Wc));
+  trace.add(*stage.model, snapshot);
   if (trace.t.size() <= kTrailPoints) return;
   const auto old = static_cast<std::ptrdiff_t>(kTrailPoints / 10);  // in blocks: erasing moves all
   trace.t.erase(trace.t.begin(), trace.t.begin() + old);
