@@ -63,7 +63,7 @@ class Trials {
       } catch (const std::exception&) {  // this change is not possible in this scene
       }
       if (is_cancelled_() || found.size() == kMaxFixes ||
-          thread_cpu_time() - start_ > RemedyTrial::kMaxCpuOfAll)
+          thread_cpu_time() - start_ > trial_.max_cpu_of_all)
         break;
     }
     return found;
@@ -81,7 +81,7 @@ class Trials {
     const double end = trial_.stopped_at + RemedyTrial::kHold;
     const double start = thread_cpu_time();
     while (run.view().time() < end) {
-      if (is_cancelled_() || thread_cpu_time() - start > RemedyTrial::kMaxCpu) return false;
+      if (is_cancelled_() || thread_cpu_time() - start > trial_.max_cpu) return false;
       if (run.step(inputs.at(run.view().time()))) continue;
       const PostMortem* found = run.post_mortem();
       if (found && candidate.is_suggested)

@@ -19,6 +19,7 @@ RemedyTrial stopped_run() {
   trial.changes = {{kSpring + "discretization", "explicit"}, {kSpring + "stiffness", "3e7"}};
   trial.from = s.history.newest();
   trial.names = s.names;
+  trial.max_cpu = trial.max_cpu_of_all = 1e9;  // independent of the machine
   s.change(trial.changes);
   for (bool goes_on = true; goes_on;) {
     goes_on = s.run->step();
