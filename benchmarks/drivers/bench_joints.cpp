@@ -50,12 +50,11 @@ std::function<void()> forward_dynamics_of(const Model<double>& in_double) {
 
 int run(int repetitions, double seconds) {
   constexpr std::pair<const char*, double> scalars[] = {
-      {"double", 1}, {"float", 1}, {"batch4", 4}, {"batch8", 8}, {"dual8", 1}};  // name, states
+      {"double", 1}, {"batch4", 4}, {"batch8", 8}, {"dual8", 1}};  // name, states
   std::vector<std::function<void()>> jobs;
   for (const JointType type : all_joint_types) {
     const Model<double> model = chain_of(type);
     jobs.push_back(forward_dynamics_of<double>(model));
-    jobs.push_back(forward_dynamics_of<float>(model));
     jobs.push_back(forward_dynamics_of<Batch<4>>(model));
     jobs.push_back(forward_dynamics_of<Batch<8>>(model));
     jobs.push_back(forward_dynamics_of<Dual<8>>(model));

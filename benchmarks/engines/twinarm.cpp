@@ -1,8 +1,7 @@
-// twinarm: scenes and algorithms through its public interface. S is double, float or Batch<N>; a
-// batch takes N situations per call.
+// twinarm: scenes and algorithms through its public interface. S is double or Batch<N>; a batch
+// takes N situations per call.
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 
 #include "benchmarks/engines/twinarm_sources.h"
 #include "solver/dynamics/dynamics.h"
@@ -38,12 +37,6 @@ class TwinarmPasses : public FixedStepEngine {
 
   std::string name() const override { return name_; }
   bool has(Algorithm) const override { return true; }
-  // Single precision: the measured error of the articulated-body algorithm is a tenth of this, from
-  // 1 to 512 joints.
-  double tolerance(const Scene& mechanism) const override {
-    const auto n = static_cast<double>(mechanism.bodies.size() + (mechanism.floats() ? 5 : 0));
-    return std::is_same_v<S, float> ? 1e-6 * (10 + n) : Engine::tolerance(mechanism);
-  }
   void load_mechanism(const Scene& mechanism) override {
     model_ = convert<S>(model_of(mechanism));
     w_.emplace(model_);
@@ -251,7 +244,6 @@ Engines variants() {
       engines.push_back(std::make_unique<TwinarmPasses<double>>(
           std::string("twinarm double ") + name_of(isa), isa));
   engines.push_back(std::make_unique<Traced>());
-  engines.push_back(std::make_unique<TwinarmPasses<float>>("twinarm float", best));
   engines.push_back(std::make_unique<TwinarmPasses<Batch<4>>>("twinarm batch4", best));
   engines.push_back(std::make_unique<TwinarmPasses<Batch<8>>>("twinarm batch8", best));
   return engines;

@@ -19,13 +19,11 @@ namespace twinarm {
   const Passes<__VA_ARGS__>& table(); \
   }
 TWINARM_TABLE(generic, double)
-TWINARM_TABLE(generic, float)
 TWINARM_TABLE(generic, Dual<8>)
 TWINARM_TABLE(generic, Batch<4>)
 TWINARM_TABLE(generic, Batch<8>)
 #ifdef TWINARM_HAS_LEVELS
 TWINARM_TABLE(v3, double)
-TWINARM_TABLE(v3, float)
 TWINARM_TABLE(v3, Batch<4>)
 TWINARM_TABLE(v3, Batch<8>)
 TWINARM_TABLE(v4, double)
@@ -96,12 +94,10 @@ const Passes<S>& passes() {
 }
 
 template const Passes<double>& passes();
-template const Passes<float>& passes();
 template const Passes<Dual<8>>& passes();
 template const Passes<Batch<4>>& passes();
 template const Passes<Batch<8>>& passes();
 template const Passes<double>& passes(Isa);
-template const Passes<float>& passes(Isa);
 template const Passes<Dual<8>>& passes(Isa);
 template const Passes<Batch<4>>& passes(Isa);
 template const Passes<Batch<8>>& passes(Isa);

@@ -1,4 +1,4 @@
-// Interface of the algorithms, for the scalars double, float, Dual<8>, Batch<4>, Batch<8>.
+// Interface of the algorithms, for the scalars double, Dual<8>, Batch<4>, Batch<8>.
 //
 // Implemented in solver/passes/ and compiled for plain x86-64 (`generic`) and for newer
 // instruction-set levels; the highest level of the processor is selected at program start. The

@@ -1,4 +1,4 @@
-// Conversion of model and state to another scalar: float, Dual<N>, Batch<N>.
+// Conversion of model and state to another scalar: Dual<N>, Batch<N>.
 #pragma once
 
 #include "solver/model/model.h"

@@ -57,7 +57,7 @@ struct Forces {
   }
 };
 
-// In debug builds: fills all fields with NaN (all bits set, for float and double).
+// In debug builds: fills all fields with NaN (all bits set).
 template <class... T>
 void poison_with_nan([[maybe_unused]] std::vector<T>&... fields) {
 #ifndef NDEBUG

@@ -1,7 +1,7 @@
-// Requirements on the scalar S of the algorithms, and their implementation for double and float.
+// Requirements on the scalar S of the algorithms, and their implementation for double.
 //
-// S is double, float, Dual<N> (solver/spatial/dual.h) or Batch<N> (solver/spatial/batch.h). The
-// algorithms use + - * /, sqrt, select, is_nonzero and sin_cos; they never branch on a value of S.
+// S is double, Dual<N> (solver/spatial/dual.h) or Batch<N> (solver/spatial/batch.h). The algorithms
+// use + - * /, sqrt, select, is_nonzero and sin_cos; they never branch on a value of S.
 #pragma once
 
 #include <cmath>
@@ -22,9 +22,6 @@ S select(bool condition, const S& a, const S& b) {
 
 // False only if x is zero in value, all lanes and derivatives: work with result zero is skipped.
 inline bool is_nonzero(double x) {
-  return x != 0;
-}
-inline bool is_nonzero(float x) {
   return x != 0;
 }
 
@@ -94,10 +91,6 @@ inline constexpr bool precomputes_sincos = std::is_same_v<S, double>;
 inline SinCos<double> sin_cos(double x) {
   if (std::abs(x) <= kPolynomialRange) return sin_cos_polynomial<double, std::int64_t>(x);
   return {std::sin(x), std::cos(x)};  // outside the polynomial's range, or NaN
-}
-inline SinCos<float> sin_cos(float x) {
-  const SinCos<double> both = sin_cos(static_cast<double>(x));
-  return {static_cast<float>(both.sin), static_cast<float>(both.cos)};
 }
 
 }  // namespace twinarm

@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
 #include "solver/dynamics/dynamics.h"
@@ -13,7 +12,7 @@
 #include "solver/model/convert_model.h"
 #include "tests/solver/dynamics/random_tree.h"
 
-#define TWINARM_SCALARS double, float, twinarm::Dual<8>, twinarm::Batch<4>, twinarm::Batch<8>
+#define TWINARM_SCALARS double, twinarm::Dual<8>, twinarm::Batch<4>, twinarm::Batch<8>
 TYPE_TO_STRING(twinarm::Dual<8>);
 TYPE_TO_STRING(twinarm::Batch<4>);
 TYPE_TO_STRING(twinarm::Batch<8>);
@@ -21,29 +20,23 @@ TYPE_TO_STRING(twinarm::Batch<8>);
 namespace twinarm::testing {
 
 template <class S>
-struct Scalar {  // double and float
+struct Scalar {  // double
   static constexpr int lanes = 1;
-  static constexpr double epsilon = std::numeric_limits<S>::epsilon();
-  static void set(S& s, int, double x) { s = static_cast<S>(x); }
+  static void set(S& s, int, double x) { s = x; }
   static double get(const S& s, int) { return s; }
 };
 template <int N>
 struct Scalar<Dual<N>> {
   static constexpr int lanes = 1;
-  static constexpr double epsilon = std::numeric_limits<double>::epsilon();
   static void set(Dual<N>& s, int, double x) { s.value = x; }
   static double get(const Dual<N>& s, int) { return s.value; }
 };
 template <int N>
 struct Scalar<Batch<N>> {
   static constexpr int lanes = N;
-  static constexpr double epsilon = std::numeric_limits<double>::epsilon();
   static void set(Batch<N>& s, int lane, double x) { s.set(lane, x); }
   static double get(const Batch<N>& s, int lane) { return s[lane]; }
 };
-// Rounding unit relative to double.
-template <class S>
-inline constexpr double coarseness = Scalar<S>::epsilon / std::numeric_limits<double>::epsilon();
 
 // Levels with code for this scalar that this processor supports.
 template <class S>

@@ -10,6 +10,7 @@
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/convert_model.h"
+#include "solver/spatial/batch.h"
 
 using namespace twinarm;
 
@@ -94,12 +95,12 @@ TEST_CASE("bodies and joints are found by name in any order, also in a converted
   for (int i = 1; i <= 100; ++i)
     builder.add_body(name(i), i - 1, "to " + name(101 - i), JointType::revolute, {}, kAxis, kBody);
   const Model<double> model = builder.build();
-  const Model<float> single = convert<float>(model);
+  const auto converted = convert<Batch<4>>(model);
   for (int i = 1; i <= 100; ++i) {
     CHECK(model.find_body(name(i)) == i);
     CHECK(model.find_joint("to " + name(101 - i)) == i);
-    CHECK(single.find_body(name(i)) == i);
-    CHECK(single.find_joint(name(i)) == -1);
+    CHECK(converted.find_body(name(i)) == i);
+    CHECK(converted.find_joint(name(i)) == -1);
   }
 }
 

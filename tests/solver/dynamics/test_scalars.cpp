@@ -161,7 +161,7 @@ TEST_CASE_TEMPLATE("every scalar and level agrees with double at the generic lev
       }
     }
   MESSAGE("largest relative difference of qdd = " << worst);
-  CHECK(worst <= 1e-11 * coarseness<S>);
+  CHECK(worst <= 1e-11);
 }
 
 TEST_CASE_TEMPLATE("a large or non-finite lane leaves the others bit-identical", S, Batch<4>,
