@@ -87,12 +87,6 @@ Force<double> in_body_axes(const Wrench& wrench, const Kinematics& k) {
   return {from_eigen(R_BW * (n_W + r_W.cross(f_W))), from_eigen(R_BW * f_W)};
 }
 
-Kinematics kinematics_at(const Model<double>& model, const State<double>& x) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
-  return k;
-}
-
 Dynamics compute_dynamics(const RobotInput& input) {
   const Model<double>& model = input.model;
   const State<double>& x = input.state.x;

@@ -8,8 +8,6 @@
 
 namespace twinarm {
 
-Kinematics kinematics_at(const Model<double>& model, const State<double>& x);
-
 struct Dynamics {
   Eigen::VectorXd qdd;              // forward dynamics with tau and wrenches
   Eigen::VectorXd tau_inverse;      // inverse dynamics with the given qdd and wrenches

@@ -37,8 +37,7 @@ class ContactMeasure {
     x.q = q;
     if (!scene.obstacle)  // free bodies; some engines return quaternions in single precision
       for (std::size_t i = 3; i < q.size(); i += 7) Eigen::Vector4d::Map(&x.q[i]).normalize();
-    Kinematics k(model_);
-    forward_kinematics(model_, x, k);
+    const Kinematics k = kinematics_at(model_, x);
     std::size_t shape = 1;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       if (scene.bodies[i].form != Form::none)

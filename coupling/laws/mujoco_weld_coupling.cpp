@@ -95,8 +95,7 @@ class MujocoWeld final : public Coupling {
 Spring weld_spring(std::string name, const Model<double>& model, const State<double>& x, int body,
                    const Vector3& p_L, const SolrefParameters& reference) {
   const auto i = static_cast<std::size_t>(body);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   const Eigen::MatrixXd inverse_M = inverse_of(mass_matrix(model, x));
   const Vector3 com =
       model.I[i].m > 0 ? Vector3(to_eigen(model.I[i].h) / model.I[i].m) : Vector3(Vector3::Zero());

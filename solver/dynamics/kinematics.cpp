@@ -36,6 +36,12 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
   }
 }
 
+Kinematics kinematics_at(const Model<double>& model, const State<double>& x) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  return k;
+}
+
 Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
                                 const Vector3& p_W) {
   Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));

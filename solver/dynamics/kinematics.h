@@ -39,6 +39,7 @@ struct Kinematics {
 
 // Computes all fields of k, O(n).
 void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k);
+Kinematics kinematics_at(const Model<double>& model, const State<double>& x);  // allocates
 
 // d(velocity of the link's point currently at p_W) / d qd, world axes, 3 x nv.
 Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,

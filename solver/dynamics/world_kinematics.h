@@ -65,19 +65,6 @@ void jacobian(const Model<S>& model, const Workspace<S>& w, std::size_t body, co
     }
 }
 
-// J-dot qd: (angular; classical linear) acceleration of the body's point at qdd = 0.
-template <class S>
-Motion<S> jacobian_rate_times_qd(const Model<S>& model, const Workspace<S>& w, std::size_t body,
-                                 const Vec3<S>& r_B) {
-  Motion<S> a;  // sum of c over the ancestors, transformed to this body
-  Transform<S> X;
-  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
-    a += X * w.c[i];
-    X = X * w.Xup[i];
-  }
-  return {to_world(w, body, a.w), to_world(w, body, classical_acceleration(w.v[body], a, r_B))};
-}
-
 // ---- the whole mechanism ----
 
 template <class S>

@@ -125,8 +125,7 @@ bool has_opposite_axes(const LoopClosure& loop, const Kinematics& k) {
 
 void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,
               DiagnosticList& faults) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  const Kinematics k = kinematics_at(model, x);
   LoopClosures alone(model, {loop});
   alone.evaluate(x, k);
   const double error = alone.g().lpNorm<Eigen::Infinity>();

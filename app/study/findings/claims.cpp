@@ -53,8 +53,7 @@ void add_proportional_springs(std::vector<Finding>& findings) {
   for (double q2 : {-2.0, -0.7, 0.0, 0.4, 1.9}) {
     State<double> x(model);
     x.q[1] = q2;
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
+    const Kinematics k = kinematics_at(model, x);
     Eigen::Matrix2d K = Eigen::Matrix2d::Zero();
     for (const auto& [body, l, m] : {std::tuple{1, l1, m1}, {2, l2, m2}}) {
       const auto J = point_jacobian(model, k, body, k.position(body, {l, 0, 0}));

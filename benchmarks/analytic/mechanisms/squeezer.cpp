@@ -32,8 +32,7 @@ void add_motor_and_spring(LoopCase& c, std::size_t crank, int k3) {
       });
   // Of the spring, and minus the work of the motor.
   c.stored = [crank, k3, model = c.model](const State<double>& x) {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
+    const Kinematics k = kinematics_at(model, x);
     const double stretch = (C - k.position(k3, {sd, -sc, 0})).norm() - l0;
     return c0 / 2 * stretch * stretch - motor * x.q[crank];
   };

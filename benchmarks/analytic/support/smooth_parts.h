@@ -47,12 +47,6 @@ std::shared_ptr<ForceSource> joint_effort(Law law, std::size_t dof = 0) {
 
 // ---- observers ----
 
-inline Kinematics kinematics_at(ModelRef model, StateRef x) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
-  return k;
-}
-
 // One number of a state: reading, or function whose zeros are events.
 using Observed = std::function<double(ModelRef, StateRef)>;
 inline Observed coordinate(std::size_t i) {

@@ -1,6 +1,5 @@
 // The algorithms and the functions of their results allocate nothing, for all scalars and levels.
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/operational_space.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "tests/solver/dynamics/every_scalar.h"
 #include "tests/support/count_allocations.h"
@@ -33,13 +32,11 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
             aba(p.model_S, p.x_S, p.forces_S, w);
             const Vec3<S> r{S(1), S(2), S(3)};
             jacobian(p.model_S, w, tip, r, J);
-            jacobian_rate_times_qd(p.model_S, w, tip, r);
             point_acceleration(p.model_S, w, tip, r);
             mass_and_com(p.model_S, w);
             momentum(p.model_S, w);
             kinetic_energy(p.model_S, p.x_S, w);
             potential_energy(p.model_S, w);
-            inverse_operational_inertia(p.model_S, tip, r, zero, wrench, w);
             p.forces_S.clear();
           }) == 0);
   }
