@@ -62,7 +62,6 @@ struct LaneRunner {
     setup.start = base.input.robot.state.x;
     setup.duration = base.run.duration;
     setup.measured = joints.iq;
-    setup.energy = true;
     add_target(measured);
     for (const SceneCoupling& c : scene.couplings) {
       const bool same = c.target == measured.target && c.driven.turned == measured.driven.turned &&
@@ -98,8 +97,7 @@ struct LaneRunner {
   // The target of the measured coupling is the first.
   void add_target(const SceneCoupling& coupling) {
     hands.push_back(motion_of(coupling));
-    setup.targets.push_back(
-        {hands.back().get(), OperatorMapping{}, coupling.driven, coupling.rest});
+    setup.targets.push_back({hands.back().get(), coupling.driven, coupling.rest});
   }
 
   // False if a joint with active limits is not measured.

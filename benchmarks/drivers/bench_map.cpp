@@ -39,22 +39,20 @@ Json compare_with_passes(bool quick) {
   const auto aba_alone = [&] {
     for (const State<S>& x : states) passes<S>().aba(model, x, forces, w);
   };
-  for (const bool energy : {false, true})
-    for (const MapLaw& law : kMapLaws)
-      for (const auto discretization :
-           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
-        MapRuns map(law, discretization, energy, 4 * N, 1, 1.0);
-        const std::vector<Timing> times =
-            time_interleaved({[&] { map.run(); }, aba_alone}, quick ? 3 : 9, quick ? 0.01 : 0.05);
-        const double step = times[0].ns / static_cast<double>(map.steps());
-        const double aba = times[1].ns / static_cast<double>(states.size() * N);
-        rows.push_back({{"law", law.name},
-                        {"discretization", name_of(discretization)},
-                        {"energies", energy},
-                        {"ns", step},
-                        {"aba_ns", aba},
-                        {"ratio", step / aba}});
-      }
+  for (const MapLaw& law : kMapLaws)
+    for (const auto discretization :
+         {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
+      MapRuns map(law, discretization, 4 * N, 1, 1.0);
+      const std::vector<Timing> times =
+          time_interleaved({[&] { map.run(); }, aba_alone}, quick ? 3 : 9, quick ? 0.01 : 0.05);
+      const double step = times[0].ns / static_cast<double>(map.steps());
+      const double aba = times[1].ns / static_cast<double>(states.size() * N);
+      rows.push_back({{"law", law.name},
+                      {"discretization", name_of(discretization)},
+                      {"ns", step},
+                      {"aba_ns", aba},
+                      {"ratio", step / aba}});
+    }
   return rows;
 }
 
@@ -89,19 +87,16 @@ Json measure_throughput(bool quick) {
   const std::size_t max_cells = quick ? 16 : 1024, max_alone = quick ? 4 : 16;
   for (const bool alone : {true, false})
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}})
-      for (std::size_t cells = 1; cells <= (alone ? max_alone : max_cells); cells *= 2)
-        for (const bool energy : {true, false}) {
-          if (!energy && (alone || cells < max_cells)) continue;
-          MapRuns map(kMapLaws[2], Discretization::semi_implicit, energy, cells, threads, duration);
-          const Quickest best = quickest(map, alone, quick);
-          const auto steps = static_cast<double>(map.steps());
-          rows.push_back({{"lanes", alone ? 1 : map.lanes()},
-                          {"threads", threads},
-                          {"cells", cells},
-                          {"energies", energy},
-                          {"steps_per_second", steps / best.wall},
-                          {"steps_per_cpu_second", steps / best.busiest}});
-        }
+      for (std::size_t cells = 1; cells <= (alone ? max_alone : max_cells); cells *= 2) {
+        MapRuns map(kMapLaws[2], Discretization::semi_implicit, cells, threads, duration);
+        const Quickest best = quickest(map, alone, quick);
+        const auto steps = static_cast<double>(map.steps());
+        rows.push_back({{"lanes", alone ? 1 : map.lanes()},
+                        {"threads", threads},
+                        {"cells", cells},
+                        {"steps_per_second", steps / best.wall},
+                        {"steps_per_cpu_second", steps / best.busiest}});
+      }
   return rows;
 }
 

@@ -44,19 +44,18 @@ inline constexpr std::array<MapLaw, 3> kMapLaws{
 // A map of k against b about the law's gains, all cells of it stable.
 class MapRuns {
  public:
-  MapRuns(const MapLaw& law, Discretization discretization, bool energy, std::size_t cells,
-          std::size_t threads, double duration)
+  MapRuns(const MapLaw& law, Discretization discretization, std::size_t cells, std::size_t threads,
+          double duration)
       : results_(cells) {
     setup_.model = &model_;
     setup_.start = State<double>(model_);
-    BatchTarget target{&hand_, mapping_, {{"joint1", "joint2", "joint3"}, "", 0, 0}, setup_.start};
+    BatchTarget target{&hand_, {{"joint1", "joint2", "joint3"}, "", 0, 0}, setup_.start};
     const TargetRobot kvr(model_, hand_, mapping_, target.joints);
     setup_.start.q = kvr.start().x.q;
     setup_.targets = {target};
     for (const int body : {1, 2, 3})
       setup_.springs.push_back({law.type, law.measure, discretization, false, 0, body});
     setup_.duration = duration;
-    setup_.energy = energy;
     setup_.measured = {0, 1, 2};
     for (std::size_t c = 0; c < cells; ++c) {
       const double share = static_cast<double>(c) / static_cast<double>(cells);

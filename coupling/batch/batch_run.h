@@ -22,7 +22,6 @@ namespace twinarm {
 // A target robot, at `rest` except for the driven joints.
 struct BatchTarget {
   const OperatorMotion* motion = nullptr;
-  OperatorMapping mapping;
   DrivenJoints joints;
   State<double> rest;
 };
@@ -41,10 +40,8 @@ struct BatchSetup {
   State<double> start;
   std::vector<BatchTarget> targets;
   std::vector<BatchSpring> springs;
-  std::vector<std::size_t>
-      measured;         // coordinates with tracking errors, relative to the first target
-  double duration = 0;  // [s]; the last step may be shorter
-  bool energy = false;  // compute energy_created and input_work_min
+  std::vector<std::size_t> measured;  // coordinates with tracking errors to the first target
+  double duration = 0;                // [s]; the last step may be shorter
 };
 
 // One run. Vectors by spring and by body of the model.

@@ -51,7 +51,7 @@ BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()
     places.push_back({motion_stride, energy_stride});
     const RowSizes size = row_sizes(kind_of(spring));
     motion_stride += size.pose + size.velocity;
-    if (setup.energy) energy_stride += size.pose + 2 * size.velocity + size.products;
+    energy_stride += size.pose + 2 * size.velocity + size.products;
   }
 }
 
@@ -73,7 +73,7 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& m
   motions.reserve(setup.targets.size());
   for (const BatchTarget& target : setup.targets) {
     motions.emplace_back(*target.motion, cell.delay, cell.speed);
-    kvrs.emplace_back(merged.model, motions.back(), target.mapping, target.joints);
+    kvrs.emplace_back(merged.model, motions.back(), OperatorMapping{}, target.joints);
     kvrs.back().set_pose(target.rest);
   }
   std::vector<Reader> readers;
@@ -89,7 +89,7 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& m
     for (TargetRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
     fill_step(n, setup, readers, kvrs);
   }
-  if (setup.energy) find_velocity_jumps(setup, cell.h);
+  find_velocity_jumps(setup, cell.h);
   find_range();
 }
 
@@ -126,7 +126,6 @@ void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
     double* out = &motion[n * motion_stride + places[s].motion];
     of.pose(of.discretization == Discretization::implicit ? end : start, out);
     of.velocity(of.discretization == Discretization::explicit_ ? start : end, out + size.pose);
-    if (!setup.energy) continue;
     double* pose = &energy[n * energy_stride + places[s].energy];
     double *before = pose + size.pose, *after = before + size.velocity;
     of.pose(start, pose);

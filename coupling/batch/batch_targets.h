@@ -19,7 +19,7 @@ struct BatchMotion {
   std::size_t steps = 0;               // the last one may be shorter
   double last_step = 0;                // [s]
   std::vector<double> motion;          // steps rows
-  std::vector<double> energy;          // steps + 1 rows, with BatchSetup::energy
+  std::vector<double> energy;          // steps + 1 rows
   std::vector<char> is_velocity_jump;  // by row of `energy`: BatchWork
   std::vector<double> q_K;             // steps + 1 rows
   std::vector<double> low, high;       // of q_K, by joint

@@ -92,7 +92,6 @@ class Lanes {
   Lanes(const BatchSetup& setup, const ModelWithoutFixedJoints& merged, const BatchMotion& motion,
         BatchWork<S>& work)
       : setup_(setup), merged_(merged), motion_(motion), work_(work) {
-    work_.has_energy = setup.energy;
     work_.measured = setup.measured;
     for (auto* by_joint : {&work_.error_integral, &work_.error_max, &work_.error_last})
       by_joint->resize(work_.measured.size());
@@ -169,7 +168,7 @@ class Lanes {
     }
     result.target_lower = motion_.low;
     result.target_upper = motion_.high;
-    if (setup_.energy) store_energies(lane, result);
+    store_energies(lane, result);
   }
 
  private:

@@ -103,14 +103,14 @@ struct LaneSprings {
   void after_pass_1() const {
     if (b.needs_rotations) update_rotations(b);
     if (b.needs_bias) update_bias(b);
-    const bool smooth = b.has_energy && b.is_velocity_jump[n] == 0;
-    if (b.has_energy) start_powers(b);
+    const bool smooth = b.is_velocity_jump[n] == 0;
+    start_powers(b);
     for (const LaneSpring<S>& lane_spring : b.springs)
       apply_spring(b, lane_spring, row + lane_spring.motion,
                    smooth ? b.energy + n * b.energy_stride + lane_spring.energy : nullptr);
     if (smooth)
       add_work(b, n);
-    else if (b.has_energy)
+    else
       add_work_at_jump(b, n);
     b.model.I = b.model.I_effective.data();
   }
@@ -153,7 +153,7 @@ void run_steps(BatchWork<S>& b) {
     b.h_before = b.h;
     measure(b, n);
   }
-  if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
+  if (b.last < b.steps || b.lanes_running == 0) return;
   b.model.I = b.model.I_own.data();  // powers at the end, with the last row of the motion
   aba(b.model, b.x, b.forces, b.w,
       LaneSprings<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});

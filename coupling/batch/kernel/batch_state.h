@@ -81,7 +81,7 @@ struct BatchWork {
   // By body with springs: world to body axes, origin, bias acceleration.
   std::vector<Frame> frames;
   bool needs_rotations = false, needs_origins = false, needs_bias = false;  // E, o, a_bias
-  bool has_joint_springs = false, has_damping = false, has_energy = false;
+  bool has_joint_springs = false, has_damping = false;
   std::vector<Mat3<S>> E;
   std::vector<Vec3<S>> o;
   std::vector<Motion<S>> a_bias;

@@ -97,7 +97,6 @@ struct CellBench {
     setup.duration = 0.4;
     for (const int body : {1, 2, 3})
       setup.measured.push_back(model.iq[static_cast<std::size_t>(body)]);
-    setup.energy = true;
   }
   CellBench(const CellBench&) = delete;
 

@@ -139,7 +139,7 @@ TEST_CASE("unsupported batched runs are rejected with all reasons at once") {
   BatchSetup setup;
   setup.model = &model;
   setup.start = State<double>(model);
-  setup.targets = {{&hand, {}, {{"joint1", "elbow"}, "", 0, 0}, setup.start}};
+  setup.targets = {{&hand, {{"joint1", "elbow"}, "", 0, 0}, setup.start}};
   setup.springs = {{CouplingSpec::Type::equivalent_torsional, SpringSpace::world,
                     Discretization::explicit_, false, 3, 0}};
   try {

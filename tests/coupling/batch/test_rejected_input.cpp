@@ -121,7 +121,7 @@ TEST_CASE("batched runs reject a step size that is invalid or too small before a
   BatchSetup setup;
   setup.model = &model;
   setup.start = State<double>(model);
-  setup.targets = {{&hand, {}, {kThreeJoints, "", 0, 0}, setup.start}};
+  setup.targets = {{&hand, {kThreeJoints, "", 0, 0}, setup.start}};
   setup.duration = 0.1;
   BatchRun batch(setup);
   std::vector<double> bad(std::begin(kBadSteps), std::end(kBadSteps));
