@@ -146,13 +146,12 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
 }
 
 MatrixXd PosedCouplings::tangent(std::size_t c) {
-  const TangentStiffness found = tangent_stiffness(
+  return by_rows(tangent_stiffness(
       model_, x_,
       [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
         input_.couplings->hold_still(c, x, k, forces);
       },
-      velocities_);
-  return by_rows(found.K);
+      velocities_));
 }
 
 CoupledTerm joint_damper_term(const MatrixXd& damping, Integrator integrator) {

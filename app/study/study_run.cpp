@@ -153,7 +153,7 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(2, modes.size()); ++i)
     result.damping_ratio[static_cast<std::size_t>(i)] = modes.zeta(i);
   result.step_limit = max_stable_step(M, K, B, scheme_of(spec));
-  const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * kSweep, 1.0);
+  const Eigen::VectorXd peak = response_to_velocity_steps(M, K, B, {{0, 2 * kSweep}}, 1).peak;
   const JumpErrors motion =
       response_to_velocity_steps(M, K, B, {{0, kSweep}, {1, -2 * kSweep}, {2, 2 * kSweep}}, 3);
   for (Eigen::Index j = 0; j < 2; ++j) {
@@ -175,7 +175,8 @@ double step_limit_of_motion(const StudyRobot& robot, const RunSpec& spec) {
 double reversal_peak_of_motion(const StudyRobot& robot, const RunSpec& spec) {
   double sum = 0;
   for_poses_of_motion(robot, spec, [&](const auto& M, const auto& K, const auto& B) {
-    sum = std::max(sum, peak_after_jump(M, K, B, 2 * kSweep, 1.0).cwiseAbs().sum());
+    const JumpErrors errors = response_to_velocity_steps(M, K, B, {{0, 2 * kSweep}}, 1);
+    sum = std::max(sum, errors.peak.sum());
   });
   return sum / kDegree;
 }

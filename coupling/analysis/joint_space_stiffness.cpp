@@ -88,47 +88,23 @@ Forces<double> NearbyForces::at(std::size_t dof, bool of_velocity, double s) {
   return forces;
 }
 
-namespace {
-
-// -d tau/dx by central differences with steps s, s/2, s/4, extrapolated to order 6.
-class TauDerivative {
- public:
-  TauDerivative(const Model<double>& model, const State<double>& x, const AppliedForces& applied)
-      : model_(model), applied_(model, x, applied) {}
-
-  VectorXd along(std::size_t dof, bool of_velocity) {
-    std::array<VectorXd, 3> rate{difference(dof, of_velocity, 4e-2),
-                                 difference(dof, of_velocity, 2e-2),
-                                 difference(dof, of_velocity, 1e-2)};
-    for (std::size_t i = 0; i < 2; ++i) rate[i] = (4 * rate[i + 1] - rate[i]) / 3;
-    return (16 * rate[1] - rate[0]) / 15;
-  }
-
- private:
-  VectorXd difference(std::size_t dof, bool of_velocity, double s) {
-    return (at(dof, of_velocity, -s) - at(dof, of_velocity, s)) / (2 * s);
-  }
-  VectorXd at(std::size_t dof, bool of_velocity, double s) {
-    const Forces<double> forces = applied_.at(dof, of_velocity, s);
-    return generalised_force(model_, applied_.state(), forces);
-  }
-
-  const Model<double>& model_;
-  NearbyForces applied_;
-};
-
-}  // namespace
-
-TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                   const AppliedForces& applied, std::size_t count) {
+MatrixXd tangent_stiffness(const Model<double>& model, const State<double>& x,
+                           const AppliedForces& applied, std::size_t count) {
   const auto n = static_cast<Index>(model.nv);
-  TangentStiffness found{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
-  TauDerivative derivative(model, x, applied);
+  MatrixXd K = MatrixXd::Zero(n, n);
+  NearbyForces nearby(model, x, applied);
   for (std::size_t dof = 0; dof < count; ++dof) {
-    found.K.col(static_cast<Index>(dof)) = derivative.along(dof, false);
-    found.B.col(static_cast<Index>(dof)) = derivative.along(dof, true);
+    const auto tau = [&](double s) -> VectorXd {
+      const Forces<double> forces = nearby.at(dof, false, s);
+      return generalised_force(model, nearby.state(), forces);
+    };
+    const auto difference = [&](double s) -> VectorXd { return (tau(-s) - tau(s)) / (2 * s); };
+    // Steps s, s/2, s/4, extrapolated to order 6.
+    std::array<VectorXd, 3> rate{difference(4e-2), difference(2e-2), difference(1e-2)};
+    for (std::size_t i = 0; i < 2; ++i) rate[i] = (4 * rate[i + 1] - rate[i]) / 3;
+    K.col(static_cast<Index>(dof)) = (16 * rate[1] - rate[0]) / 15;
   }
-  return found;
+  return K;
 }
 
 VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {

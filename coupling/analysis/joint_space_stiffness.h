@@ -69,15 +69,11 @@ class NearbyForces {
   Kinematics k_;
 };
 
-// K = -d tau/dq and B = -d tau/dqd of applied forces, with geometric stiffness; dq are tangent
-// increments. By central differences, extrapolated twice: relative error about 1e-9. O(n) per
-// velocity.
-struct TangentStiffness {
-  Eigen::MatrixXd K, B;
-};
-// Along the first `count` velocities; the other columns are 0.
-TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                   const AppliedForces& applied, std::size_t count);
+// K = -d tau/dq of applied forces, with geometric stiffness; dq are tangent increments, along the
+// first `count` velocities; the other columns are 0. By central differences, extrapolated twice:
+// relative error about 1e-9. O(n) per velocity.
+Eigen::MatrixXd tangent_stiffness(const Model<double>& model, const State<double>& x,
+                                  const AppliedForces& applied, std::size_t count);
 
 // Eigenvalues of M^-1 K, ascending: squares of the natural frequencies [rad^2/s^2].
 Eigen::VectorXd squared_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K);

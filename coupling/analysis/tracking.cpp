@@ -113,11 +113,6 @@ JumpErrors response_to_velocity_steps(const MatrixXd& M, const MatrixXd& K, cons
   return errors;
 }
 
-VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
-                         double time) {
-  return response_to_velocity_steps(M, K, B, {{0, V}}, time).peak;
-}
-
 double peak_after_jump(double V, double omega, double zeta) {
   if (std::abs(zeta - 1) < 1e-9) return V / omega / std::exp(1.0);
   if (zeta < 1) return V / omega * std::exp(-zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));

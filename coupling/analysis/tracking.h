@@ -65,11 +65,7 @@ class TrackingSystem {
 //   e'' + 2 z w e' + w^2 e = a_K(t).
 // A velocity step V of the target is e'(0) = V. An absolute damper adds 2 z w v_K(t) on the right.
 
-// Maximum |e_j| after a velocity step V of the target (e = 0, e' = V), within the given time [s].
-Eigen::VectorXd peak_after_jump(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
-                                const Eigen::MatrixXd& B, const Eigen::VectorXd& V, double time);
-
-// Maximum and mean |e_j| from 0 to `duration` [s] with several velocity steps.
+// Maximum and mean |e_j| from 0 to `duration` [s] with velocity steps V of the target, from e = 0.
 struct VelocityStep {
   double t = 0;
   Eigen::VectorXd V;
@@ -81,7 +77,8 @@ JumpErrors response_to_velocity_steps(const Eigen::MatrixXd& M, const Eigen::Mat
                                       const Eigen::MatrixXd& B,
                                       const std::vector<VelocityStep>& jumps, double duration);
 
-// One degree of freedom: (V/w) exp(-z acos(z)/sqrt(1 - z^2)), V/(e w) at z = 1.
+// Maximum |e| after a velocity step V, of one degree of freedom:
+// (V/w) exp(-z acos(z)/sqrt(1 - z^2)), V/(e w) at z = 1.
 double peak_after_jump(double V, double omega, double zeta);
 
 // Steady-state error at constant target speed v with an absolute damper.

@@ -132,9 +132,9 @@ TEST_CASE("the peak after a velocity step is (V/w) exp(-z acos z / sqrt(1 - z^2)
     // Undamped, the step at the end interferes with the first: see the closed form above.
     if (zeta > 0) CHECK(run.peak == doctest::Approx(predicted).epsilon(0.01));
     const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-    const Eigen::VectorXd by_matrix = peak_after_jump(one(1), one(2500), one(2 * zeta * 50),
-                                                      Eigen::VectorXd::Constant(1, kTurn), 1);
-    CHECK(by_matrix[0] == doctest::Approx(predicted).epsilon(1e-4));
+    const JumpErrors by_matrix =
+        response_to_velocity_steps(one(1), one(2500), one(2 * zeta * 50), {{0, one(kTurn)}}, 1);
+    CHECK(by_matrix.peak[0] == doctest::Approx(predicted).epsilon(1e-4));
   }
   CHECK(peak_after_jump(1, 1, 1) == doctest::Approx(std::exp(-1.0)));
 }
