@@ -216,7 +216,7 @@ std::string read_packed(const std::string& name) {
   const std::string extension = lower_case(file.extension().string());
   AssimpConverter converter(*scene, *folder, extension == ".gltf" || extension == ".glb");
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) converter.add(*scene->mMeshes[i]);
-  return " " + pack(std::move(converter.model));
+  return " " + packed(std::move(converter.model));
 }
 
 void check_parts(const fs::path& file, const ModelFile& model) {
@@ -250,7 +250,7 @@ ModelFile read_model(const fs::path& file, const ChildLimits& limits) {
            "export the mesh again, preferably as STL, OBJ or GLB");
   if (result.bytes.starts_with('!'))
     refuse(file, "the file cannot be read: " + result.bytes.substr(1), "export the mesh again");
-  std::optional<ModelFile> model = unpack_model(result.bytes.substr(1));
+  auto model = unpacked<ModelFile>(result.bytes.substr(1));
   if (!model) refuse(file, "the reader of this format fails", "export the mesh again");
   check_parts(file, *model);
   return std::move(*model);

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/sandbox/sandboxed_process.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
 
@@ -38,9 +38,7 @@ struct ModelFile {
 // inside its own folder.
 ModelFile read_model(const std::filesystem::path& file, const ChildLimits& limits = {});
 
-// Serialisation, for the transfer between processes.
-std::string pack(ModelFile model);
-// Empty if the bytes are not a packed model. Does not check indices.
-std::optional<ModelFile> unpack_model(std::string bytes);
+// For the transfer between processes (packed(), unpacked()). Does not check indices.
+void serialize(StateArchive& archive, ModelFile& model);
 
 }  // namespace twinarm

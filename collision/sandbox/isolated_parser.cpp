@@ -48,14 +48,14 @@ void refuse_parsed(const std::string& file, const std::string& problem) {
 }
 
 std::string answer_of_parser(const std::string& order,
-                             std::string (*packed)(const std::string& file,
+                             std::string (*parsed)(const std::string& file,
                                                    const std::string& bytes)) {
   StateArchive received(order);
   std::string file, bytes, result;
   received.visit(file, bytes);
   std::vector<Diagnostic> faults;
   try {
-    result = packed(file, bytes);
+    result = parsed(file, bytes);
   } catch (const InputError& error) {
     faults = error.faults();
   }

@@ -19,33 +19,24 @@ bool parsers_are_isolated();
 std::string parsed_in_child(const std::string& file, const std::string& bytes, ChildWork work);
 // What such work does: reads the order, and packs the result or the faults.
 std::string answer_of_parser(const std::string& order,
-                             std::string (*packed)(const std::string& file,
+                             std::string (*parsed)(const std::string& file,
                                                    const std::string& bytes));
 [[noreturn]] void refuse_parsed(const std::string& file, const std::string& problem);
-
-template <auto read>
-std::string pack_parsed(const std::string& file, const std::string& bytes) {
-  StateArchive packed;
-  auto result = read(file, bytes);
-  serialize(packed, result);
-  return packed.bytes();
-}
 
 // What `read` returns for this file, or for these bytes of it; if parsers are isolated, from a
 // child, transferred by serialize(StateArchive&, Result&). Throws InputError.
 template <auto read>
 auto parse(const std::string& file, const std::string& bytes = "") {
   if (!parsers_are_isolated()) return read(file, bytes);
-  StateArchive archive(parsed_in_child(file, bytes, [](const std::string& order) {
-    return answer_of_parser(order, pack_parsed<read>);
-  }));
-  try {
-    decltype(read(file, bytes)) result;
-    serialize(archive, result);
-    if (archive.at_end()) return result;
-  } catch (const std::runtime_error&) {  // truncated
-  }
-  refuse_parsed(file, "fails");
+  auto result = unpacked<decltype(read(file, bytes))>(
+      parsed_in_child(file, bytes, [](const std::string& order) {
+        return answer_of_parser(order,
+                                [](const std::string& its_file, const std::string& its_bytes) {
+                                  return packed(read(its_file, its_bytes));
+                                });
+      }));
+  if (!result) refuse_parsed(file, "fails");
+  return std::move(*result);
 }
 
 }  // namespace twinarm

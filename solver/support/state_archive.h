@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -110,5 +111,25 @@ class StateArchive {
   std::size_t at_ = 0;
   bool reads_ = false;
 };
+
+// The bytes of a value that has serialize(StateArchive&, T&), and the value of such bytes; empty if
+// they are not those of a T.
+template <class T>
+std::string packed(T value) {
+  StateArchive archive;
+  serialize(archive, value);
+  return archive.bytes();
+}
+template <class T>
+std::optional<T> unpacked(std::string bytes) {
+  StateArchive archive(std::move(bytes));
+  T value;
+  try {
+    serialize(archive, value);
+  } catch (const std::runtime_error&) {  // truncated
+    return std::nullopt;
+  }
+  return archive.at_end() ? std::optional(std::move(value)) : std::nullopt;
+}
 
 }  // namespace twinarm

@@ -5,8 +5,8 @@
 namespace twinarm::fuzz {
 
 void packed_model(Bytes bytes) {
-  if (const auto model = unpack_model(std::string(bytes)))
-    require(pack(*model) == bytes, "a packed model is not what was unpacked");
+  if (const auto model = unpacked<ModelFile>(std::string(bytes)))
+    require(packed(*model) == bytes, "a packed model is not what was unpacked");
 }
 
 }  // namespace twinarm::fuzz

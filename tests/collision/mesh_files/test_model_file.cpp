@@ -112,15 +112,15 @@ TEST_CASE("a packed model is unpacked completely; a truncated one is rejected") 
   model.parts[1].texture = 0;
   model.textures = {{"name", "bytes"}};
   model.notes = {"a", "b"};
-  const std::string bytes = pack(model);
-  const std::optional<ModelFile> again = unpack_model(bytes);
+  const std::string bytes = packed(model);
+  const auto again = unpacked<ModelFile>(bytes);
   REQUIRE(again);
-  CHECK(pack(*again) == bytes);
+  CHECK(packed(*again) == bytes);
   CHECK(again->parts[0].uv == model.parts[0].uv);
   CHECK(again->parts[1].color == model.parts[1].color);
   CHECK(again->textures[0].bytes == "bytes");
   CHECK(again->notes == model.notes);
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    CHECK(!unpack_model(bytes.substr(0, size)));
-  CHECK(!unpack_model(bytes + "x"));
+    CHECK(!unpacked<ModelFile>(bytes.substr(0, size)));
+  CHECK(!unpacked<ModelFile>(bytes + "x"));
 }
