@@ -13,6 +13,24 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// Joint forces of applied forces: difference of two inverse dynamics at qdd = 0, which give
+// C - J^T f_ext. O(n).
+VectorXd generalised_force(const Model<double>& model, const State<double>& x,
+                           const Forces<double>& forces) {
+  Workspace<double> w(model);
+  const auto n = static_cast<Index>(model.nv);
+  const std::vector<double> zero(model.nv, 0.0);
+  rnea(model, x, zero, std::vector<Force<double>>(model.parent.size()), w);
+  VectorXd tau = Eigen::Map<const VectorXd>(w.tau.data(), n);
+  rnea(model, x, zero, forces.f_ext, w);
+  tau -= Eigen::Map<const VectorXd>(w.tau.data(), n);
+  return tau + Eigen::Map<const VectorXd>(forces.tau.data(), n);
+}
+
+}  // namespace
+
 double max_target_radius(double I, double r, double k, double b, double h) {
   check_step_size(h);
   if (k == 0 || r == 0) return std::numeric_limits<double>::infinity();
@@ -58,19 +76,6 @@ TargetRadius nearest_target_radius(const Model<double>& model, const State<doubl
     if (nearest.body == 0 || here.ratio() > nearest.ratio()) nearest = here;
   }
   return nearest;
-}
-
-// Difference of two inverse dynamics at qdd = 0, which give C - J^T f_ext.
-VectorXd generalised_force(const Model<double>& model, const State<double>& x,
-                           const Forces<double>& forces) {
-  Workspace<double> w(model);
-  const auto n = static_cast<Index>(model.nv);
-  const std::vector<double> zero(model.nv, 0.0);
-  rnea(model, x, zero, std::vector<Force<double>>(model.parent.size()), w);
-  VectorXd tau = Eigen::Map<const VectorXd>(w.tau.data(), n);
-  rnea(model, x, zero, forces.f_ext, w);
-  tau -= Eigen::Map<const VectorXd>(w.tau.data(), n);
-  return tau + Eigen::Map<const VectorXd>(forces.tau.data(), n);
 }
 
 Forces<double> NearbyForces::at(std::size_t dof, bool of_velocity, double s) {

@@ -41,14 +41,6 @@ TargetRadius nearest_target_radius(const Model<double>& model, const State<doubl
                                    const Kinematics& D, const Kinematics& K, const Spring& spring,
                                    double h);
 
-// Tangent stiffness. Springs at points p with forces F_p: tau = sum_p J_p^T F_p, so
-//   K_q = -d tau/dq = sum_p J_p^T k_p J_p - sum_p (dJ_p^T/dq) F_p.
-// The first sum is K_q at zero error (Coupling::joint_space), the second the geometric stiffness.
-//
-// Joint forces of applied forces; O(n).
-Eigen::VectorXd generalised_force(const Model<double>& model, const State<double>& x,
-                                  const Forces<double>& forces);
-
 // Adds all applied forces at a state; must be smooth there.
 using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
@@ -69,9 +61,11 @@ class NearbyForces {
   Kinematics k_;
 };
 
-// K = -d tau/dq of applied forces, with geometric stiffness; dq are tangent increments, along the
-// first `count` velocities; the other columns are 0. By central differences, extrapolated twice:
-// relative error about 1e-9. O(n) per velocity.
+// Springs at points p with forces F_p: tau = sum_p J_p^T F_p, so
+//   K = -d tau/dq = sum_p J_p^T k_p J_p - sum_p (dJ_p^T/dq) F_p.
+// The first sum is K at zero error (Coupling::joint_space), the second the geometric stiffness. dq
+// are tangent increments, along the first `count` velocities; the other columns are 0. By central
+// differences, extrapolated twice: relative error about 1e-9. O(n) per velocity.
 Eigen::MatrixXd tangent_stiffness(const Model<double>& model, const State<double>& x,
                                   const AppliedForces& applied, std::size_t count);
 

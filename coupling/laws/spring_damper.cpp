@@ -1,5 +1,7 @@
 #include "coupling/laws/spring_damper.h"
 
+#include <stdexcept>
+
 #include "solver/forces/spring.h"
 
 namespace twinarm {
@@ -9,7 +11,9 @@ SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model
     : Coupling(spec, model, kvr),
       space_(space),
       discretization_(spec.discretization),
-      hold_(spec.hold_steps, spec.discretization) {
+      hold_steps_(spec.hold_steps) {
+  if (hold_steps_ > 0 && discretization_ != Discretization::explicit_)
+    throw std::invalid_argument("a held force must be explicit");
   if (space == Space::joint) check_one_dof();
   if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then torques
 }
@@ -24,7 +28,7 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
     const Spring& spring = springs_[s];
     SpringState &force = readings_[s],
                 &torque = readings_[at_point && torsional ? springs_.size() + s : s];
-    if (hold_.is_fresh()) {
+    if (is_fresh_) {
       if (at_point) apply_point_spring(spring, terms, k, force, forces);
       if (torsional && at_point)
         apply_torsional_spring(spring.body, spring.k_rotational, spring.b_rotational, terms, k,
@@ -36,7 +40,7 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
       add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.force_W, forces);
     if (torsional) add_couple(k, spring.body, torque.force_W, forces);
   }
-  hold_.computed();
+  if (hold_steps_ > 0) is_fresh_ = false;
 }
 
 void SpringDamperCoupling::apply_joint_spring(std::size_t s, const DiscretizationTerms& terms,
@@ -46,7 +50,7 @@ void SpringDamperCoupling::apply_joint_spring(std::size_t s, const Discretizatio
   const auto i = static_cast<std::size_t>(spring.body);
   const std::size_t iq = model_.iq[i], iv = model_.iv[i];
   SpringState& reading = readings_[s];
-  if (hold_.is_fresh()) {
+  if (is_fresh_) {
     const double e = terms.spring_target->x.q[iq] - x.q[iq] - terms.position_lead * x.qd[iv];
     reading.size = spring.k * e + spring.b * (terms.damper_target->x.qd[iv] - x.qd[iv]);
     reading.p_K = terms.spring_target->k.X_WL[i].p;

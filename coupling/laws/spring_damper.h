@@ -14,48 +14,24 @@
 #pragma once
 
 #include <limits>
-#include <stdexcept>
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
 
-// Zero-order hold: a force is computed every n steps; without hold at every step and stage.
-class Hold {
- public:
-  // 0 steps: no hold. Throws std::invalid_argument for a held force that is not explicit.
-  Hold(int steps, Discretization discretization) : every_(steps) {
-    if (steps > 0 && discretization != Discretization::explicit_)
-      throw std::invalid_argument("a held force must be explicit");
-  }
-  void begin_step() {
-    fresh_ = every_ == 0 || steps_ % every_ == 0;
-    ++steps_;
-  }
-  bool is_fresh() const { return fresh_; }  // compute it now
-  void computed() {
-    if (every_ > 0) fresh_ = false;
-  }
-  void serialize(StateArchive& memory) {
-    memory.visit_index(steps_, std::numeric_limits<int>::max() / 2);
-  }
-
- private:
-  int every_, steps_ = 0;
-  bool fresh_ = true;
-};
-
 class SpringDamperCoupling final : public Coupling {
  public:
   enum class Space { point, orientation, frame, joint };
-  // Throws InputError for springs at joints of several degrees of freedom.
+  // Throws InputError for springs at joints of several degrees of freedom, std::invalid_argument
+  // for a held force that is not explicit.
   SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr,
                        Space space);
 
   void begin_step(const Kinematics& k, double t, double h) noexcept override {
     Coupling::begin_step(k, t, h);
-    hold_.begin_step();
+    is_fresh_ = hold_steps_ == 0 || steps_ % hold_steps_ == 0;
+    ++steps_;
   }
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
@@ -63,7 +39,7 @@ class SpringDamperCoupling final : public Coupling {
   JointSpace joint_space(const Kinematics& k) const override;
   void serialize(StateArchive& memory) override {
     Coupling::serialize(memory);
-    hold_.serialize(memory);
+    memory.visit_index(steps_, std::numeric_limits<int>::max() / 2);
   }
 
  private:
@@ -72,7 +48,9 @@ class SpringDamperCoupling final : public Coupling {
 
   Space space_;
   Discretization discretization_;
-  Hold hold_;
+  int hold_steps_;  // zero-order hold: compute the force every n steps; 0: at every step and stage
+  int steps_ = 0;
+  bool is_fresh_ = true;  // compute it now
 };
 
 // For CouplingFacts::make.

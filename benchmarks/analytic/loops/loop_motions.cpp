@@ -24,10 +24,8 @@ CaseReadings tabulated(const LoopCase& c, double t) {
 }
 
 CaseScene scene_of(const LoopCase& c) {
-  CaseScene scene{c.model, c.start};
-  if (c.source) scene.sources = {c.source};
-  scene.conserves = !c.source || c.stored;
-  scene.stored = c.stored;
+  CaseScene scene = c;
+  scene.conserves = c.sources.empty() || c.stored;
   scene.prepare = [loops = c.loops](Simulation& simulation) { simulation.set_loops(loops); };
   return scene;
 }
@@ -121,7 +119,7 @@ Swing swing(Couplers couplers, Integrator integrator) {
   Simulation simulation(c.model, c.start);
   simulation.set_integrator(integrator);
   simulation.set_loops(c.loops);
-  if (c.source) simulation.add(*c.source);
+  for (const auto& source : c.sources) simulation.add(*source);
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int n = 0; n < 2000; ++n) {
     if (!simulation.step(5e-3).ok()) return {};

@@ -74,7 +74,7 @@ void set_reference(LoopCase& c, Couplers couplers) {
 
 LoopCase governor(Couplers couplers) {
   constexpr double angle = std::numbers::pi / 6, omega = 2 * std::numbers::pi;
-  LoopCase c{"flyball governor"};
+  LoopCase c{};
   ModelBuilder builder;
   const double axial = 0.3 * 2e-4 / 12;
   const int shaft =
@@ -121,12 +121,11 @@ LoopCase governor(Couplers couplers) {
     struts[side] = c.model.iv[struts[side]];
     c.start.q[struts[side] - 1] = -2 * angle;
   }
-  if (couplers == Couplers::springs) c.source = coupler_forces(rods, slider);
-  if (couplers == Couplers::implicit_struts) c.source = std::make_shared<StrutSprings>(struts);
+  if (couplers == Couplers::springs) c.sources = {coupler_forces(rods, slider)};
+  if (couplers == Couplers::implicit_struts) c.sources = {std::make_shared<StrutSprings>(struts)};
   c.read = [i = iv(slider)](const State<double>& x, const Kinematics&) {
     return std::vector{x.q[i]};
   };
-  if (couplers == Couplers::rods) c.title += ", couplers of constant length";
   set_reference(c, couplers);
   c.step = couplers == Couplers::springs ? 1e-4 : 1e-3;
   c.tolerance = 1e-8;

@@ -48,7 +48,7 @@ CaseReadings four_bar_closed_form() {
 // A body of 1 kg, 0.25 kg m^2, hinged 0.5 m from its centre of mass: equivalent to a particle at
 // (I + m c^2) / (m c) = 1 m.
 LoopCase pendulum_on_hinge() {
-  LoopCase c{"pendulum: a free body hinged to the world"};
+  LoopCase c{};
   ModelBuilder builder;
   builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
                    {1, Vector3::Zero(), 0.25 * Matrix3::Identity()});
@@ -66,7 +66,6 @@ LoopCase pendulum_on_hinge() {
 
 LoopCase pendulum_on_circle() {
   LoopCase c = pendulum_on_hinge();
-  c.title = "pendulum: a particle in a plane, at a distance";
   ModelBuilder builder;
   const int slide =
       builder.add_body("slide", 0, "x", JointType::prismatic, {}, Vector3::UnitX(), {});
@@ -84,7 +83,7 @@ LoopCase pendulum_on_circle() {
 }
 
 LoopCase windows(int count) {
-  LoopCase c{std::to_string(count) + " four-bars in a row"};
+  LoopCase c{};
   ModelBuilder builder;
   std::vector<int> posts, beams;
   for (int i = 0; i <= count; ++i) {
@@ -113,7 +112,7 @@ LoopCase windows(int count) {
 // Joint axes y, z, x, y, z, x at the corners of a path along a cube's edges; the last closes the
 // loop.
 LoopCase bricard() {
-  LoopCase c{"Bricard's 6R mechanism"};
+  LoopCase c{};
   ModelBuilder builder;
   builder.set_gravity({0, -9.81, 0});
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
@@ -148,7 +147,7 @@ LoopCase bricard() {
 
 // Crank 0.1 m, 1 kg; rod 0.3 m, 2 kg; piston 1.5 kg on the x axis. Angles rotate x to z.
 LoopCase slider_crank() {
-  LoopCase c{"slider-crank"};
+  LoopCase c{};
   ModelBuilder builder;
   const int crank = add_rod(builder, "crank", 0, "bearing", 0, 1, 0.1);
   const int link = add_rod(builder, "rod", crank, "pin", 0.1, 2, 0.3);
@@ -172,7 +171,7 @@ LoopCase slider_crank() {
 // Crank 0.1, coupler 0.35, rocker 0.3, ground 0.4 m; the crank at 60 degrees and 10 rad/s. The
 // start is an open state nearby; one sample at t = 0, after assembly.
 LoopCase four_bar() {
-  LoopCase c{"four-bar at one place"};
+  LoopCase c{};
   ModelBuilder builder;
   const int crank = add_rod(builder, "crank", 0, "A", 0, 1, 0.1);
   const int coupler = add_rod(builder, "coupler", crank, "B", 0.1, 1, 0.35);

@@ -7,25 +7,18 @@
 
 #include <functional>
 #include <initializer_list>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/analytic/support/trajectory_case.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_source.h"
 #include "solver/loops/loop_closure.h"
 
 namespace twinarm {
 
-struct LoopCase {
-  std::string title{};
-  Model<double> model{};
+struct LoopCase : CaseScene {
   std::vector<LoopClosure> loops{};
-  State<double> start{};
-  std::shared_ptr<ForceSource> source{};  // null: gravity alone
-  // Potential energy of the source; null: it has none [J].
-  std::function<double(const State<double>&)> stored{};
   std::function<std::vector<double>(const State<double>&, const Kinematics&)> read{};
   std::vector<std::string> readings{};  // names of read()'s values, with unit
   struct Sample {

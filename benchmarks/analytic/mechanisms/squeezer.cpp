@@ -23,13 +23,13 @@ constexpr double c0 = 4530, l0 = 0.07785, motor = 0.033;
 
 // Motor on K1, spring from D on K3 to C in the world.
 void add_motor_and_spring(LoopCase& c, std::size_t crank, int k3) {
-  c.source =
+  c.sources = {
       std::make_shared<ForceLaw>([=](const auto&, const Kinematics& k, Forces<double>& forces) {
         forces.tau[crank] += motor;
         const Vector3 p = k.position(k3, {sd, -sc, 0}), to_C = C - p;
         const double length = to_C.norm();
         add_point_force(k, k3, p, c0 * (length - l0) / length * to_C, forces);
-      });
+      })};
   // Of the spring, and minus the work of the motor.
   c.stored = [crank, k3, model = c.model](const State<double>& x) {
     const Kinematics k = kinematics_at(model, x);
@@ -70,7 +70,7 @@ std::array<int, 7> build_squeezer(LoopCase& c) {
 }  // namespace
 
 LoopCase squeezer() {
-  LoopCase c{"Andrews' squeezing mechanism"};
+  LoopCase c{};
   const std::array<int, 7> bodies = build_squeezer(c);
   std::vector<std::size_t> order;
   for (const int body : bodies) order.push_back(c.model.iv[static_cast<std::size_t>(body)]);

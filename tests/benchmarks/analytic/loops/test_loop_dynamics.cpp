@@ -157,7 +157,7 @@ TEST_CASE("loops: Andrews' mechanism starts with the published acceleration and 
   Both both(c.model, c.loops, c.start);
   Forces<double> forces(c.model);
   forces.clear();
-  c.source->add_forces(c.start, both.k, forces);
+  c.sources[0]->add_forces(c.start, both.k, forces);
   both.dynamics(c.start, forces, both.w);
   // Hairer and Wanner, Solving ODEs II, VII.7: beta'', Theta'', and lambda of the loop through K3.
   CHECK(std::abs(both.w.qdd[0] / 14222.4439199541139 - 1) < 1e-11);

@@ -18,7 +18,7 @@ Simulation closed_mechanism(const LoopCase& c, Integrator integrator,
                             bool enable_constraint_work = true) {
   Simulation simulation(c.model, c.start, {.enable_constraint_work = enable_constraint_work});
   simulation.set_integrator(integrator);
-  if (c.source) simulation.add(*c.source);
+  for (const auto& source : c.sources) simulation.add(*source);
   simulation.set_loops(c.loops);
   return simulation;
 }
