@@ -173,7 +173,7 @@ Type urdf_type_of(Type type, bool limited) {
 }
 
 RobotCheck check_robot(const RobotDescription& robot, bool strict) {
-  ValidationContext context{robot, {}};
+  ValidationContext context{{robot.file, {}, {}}, robot};
   if (robot.links.empty())
     context.fault(0, "robot '" + robot.name + "'", "the robot has no link",
                   "give at least one link", "robot.empty");
@@ -183,7 +183,7 @@ RobotCheck check_robot(const RobotDescription& robot, bool strict) {
   for (const JointDescription& joint : robot.joints) check_values(context, joint);
   check_mimics(context);
   check_tree(context);
-  return std::move(context.found);
+  return context;
 }
 
 void throw_in_line_order(std::vector<Diagnostic> faults) {

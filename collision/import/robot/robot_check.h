@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,8 +23,20 @@ bool is_urdf_type(JointDescription::Type type);
 JointDescription::Type urdf_type_of(JointDescription::Type type, bool limited);
 
 struct RobotCheck {
+  std::filesystem::path file;
   std::vector<Diagnostic> faults;  // errors; empty for a valid robot
   std::vector<Diagnostic> warnings;
+
+  void fault(int line, std::string where, std::string problem, std::string fix,
+             std::string_view code) {
+    add_diagnostic(
+        faults, {file.string(), line, std::move(where), std::move(problem), std::move(fix), code});
+  }
+  void warn(int line, std::string where, std::string problem, std::string fix,
+            std::string_view code) {
+    add_diagnostic(warnings, {file.string(), line, std::move(where), std::move(problem),
+                              std::move(fix), code});
+  }
 };
 
 // Names, the tree, inertias, axes, limits, damping, mimic joints. A physically impossible inertia
@@ -40,20 +54,8 @@ std::string find_root(const RobotDescription& robot);
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
 
 // Shared by robot_check.cpp and tree_checks.cpp.
-struct ValidationContext {
+struct ValidationContext : RobotCheck {
   const RobotDescription& robot;
-  RobotCheck found;
-
-  void fault(int line, std::string where, std::string problem, std::string fix,
-             std::string_view code) {
-    add_diagnostic(found.faults, {robot.file.string(), line, std::move(where), std::move(problem),
-                                  std::move(fix), code});
-  }
-  void warn(int line, std::string where, std::string problem, std::string fix,
-            std::string_view code) {
-    add_diagnostic(found.warnings, {robot.file.string(), line, std::move(where), std::move(problem),
-                                    std::move(fix), code});
-  }
 };
 
 inline std::string of(const LinkDescription& link) {

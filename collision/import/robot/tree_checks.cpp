@@ -47,7 +47,7 @@ class TreeCheck {
     const bool acyclic = check_loops();
     // With an unknown child link the count of roots is meaningless.
     if (children_known) check_one_root();
-    if (acyclic && context_.found.faults.empty()) check_moving_masses();
+    if (acyclic && context_.faults.empty()) check_moving_masses();
   }
 
  private:

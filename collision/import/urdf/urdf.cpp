@@ -100,12 +100,10 @@ RobotDescription read_urdf(const std::filesystem::path& file, const RobotFileOpt
     if (e.name == "link") robot.links.push_back(read_link(e, materials, source));
     if (e.name == "joint") robot.joints.push_back(read_joint(e, source));
   }
-  RobotCheck check = check_robot(robot, options.strict);
-  source.fault(std::move(check.faults));
-  source.warn(std::move(check.warnings));
+  source.add(check_robot(robot, options.strict));
   source.check();
   robot.root = find_root(robot);
-  robot.warnings = source.warnings();
+  robot.warnings = source.all_warnings();
   return robot;
 }
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "collision/import/robot/robot_check.h"
 #include "solver/support/number_text.h"
 #include "solver/support/text.h"
 
@@ -29,7 +28,6 @@ std::string fix_for(const std::string& value) {
   return "give finite decimal numbers in SI units";
 }
 
-// R = Rz(yaw) Ry(pitch) Rx(roll); at pitch = +-90 degrees only yaw -+ roll matters: roll is 0.
 std::string shortened(const std::string& value) {
   constexpr std::size_t kMaxLength = 80;
   return value.size() <= kMaxLength ? value : value.substr(0, kMaxLength) + "...";
@@ -38,43 +36,34 @@ std::string shortened(const std::string& value) {
 }  // namespace
 
 UrdfSource::UrdfSource(const std::filesystem::path& file, const RobotFileOptions& options)
-    : file_(std::filesystem::absolute(file).lexically_normal()), options_(options) {}
+    : RobotCheck{std::filesystem::absolute(file).lexically_normal(), {}, {}}, options_(options) {}
 
 void UrdfSource::fault(int line, std::string where, std::string problem, std::string fix,
                        std::string_view code) {
   if (downgrade_) ++downgraded_;
-  add_diagnostic(downgrade_ ? warnings_ : faults_, {file_.string(), line, std::move(where),
-                                                    std::move(problem), std::move(fix), code});
+  add_diagnostic(downgrade_ ? warnings : faults, {file().string(), line, std::move(where),
+                                                  std::move(problem), std::move(fix), code});
 }
 
-void UrdfSource::fault(std::vector<Diagnostic> faults) {
-  for (Diagnostic& fault : faults) add_diagnostic(faults_, std::move(fault));
-}
-
-void UrdfSource::warn(int line, std::string where, std::string problem, std::string fix,
-                      std::string_view code) {
-  add_diagnostic(warnings_, {file_.string(), line, std::move(where), std::move(problem),
-                             std::move(fix), code});
-}
-
-void UrdfSource::warn(std::vector<Diagnostic> warnings) {
-  for (Diagnostic& warning : warnings) add_diagnostic(warnings_, std::move(warning));
+void UrdfSource::add(RobotCheck found) {
+  for (Diagnostic& fault : found.faults) add_diagnostic(faults, std::move(fault));
+  for (Diagnostic& warning : found.warnings) add_diagnostic(warnings, std::move(warning));
 }
 
 void UrdfSource::warn_once(const std::string& kind, int line, std::string where,
                            std::string problem, std::string fix, std::string_view code) {
   Kind& entry = kinds_[kind];
   if (entry.count++ == 0)
-    entry.first = {file_.string(),     line,           std::move(where),
+    entry.first = {file().string(),    line,           std::move(where),
                    std::move(problem), std::move(fix), code};
 }
 
 void UrdfSource::check() {
-  throw_in_line_order(faults_);
+  throw_in_line_order(faults);
 }
 
-std::vector<Diagnostic> UrdfSource::warnings() const {
-  std::vector<Diagnostic> all = warnings_;
+std::vector<Diagnostic> UrdfSource::all_warnings() const {
+  std::vector<Diagnostic> all = warnings;
   for (const auto& [name, kind] : kinds_) {
     all.push_back(kind.first);
     if (kind.count > 1) all.back().problem += " (the first of " + std::to_string(kind.count) + ")";

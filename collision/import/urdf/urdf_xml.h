@@ -9,27 +9,25 @@
 #include <string>
 #include <vector>
 
-#include "collision/import/robot/robot_description.h"
+#include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
 #include "collision/import/urdf/xml_element.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-class UrdfSource {
+class UrdfSource : RobotCheck {
  public:
   UrdfSource(const std::filesystem::path& file, const RobotFileOptions& options);
 
-  const std::filesystem::path& file() const { return file_; }  // absolute
-  std::filesystem::path folder() const { return file_.parent_path(); }
+  const std::filesystem::path& file() const { return RobotCheck::file; }  // absolute
+  std::filesystem::path folder() const { return file().parent_path(); }
   const RobotFileOptions& options() const { return options_; }
 
   void fault(int line, std::string where, std::string problem, std::string fix,
              std::string_view code);
-  void fault(std::vector<Diagnostic> faults);
-  void warn(int line, std::string where, std::string problem, std::string fix,
-            std::string_view code);
-  void warn(std::vector<Diagnostic> warnings);
+  using RobotCheck::warn;
+  void add(RobotCheck found);
   // All warnings of one `kind` become one: the first, with their number.
   void warn_once(const std::string& kind, int line, std::string where, std::string problem,
                  std::string fix, std::string_view code);
@@ -52,7 +50,7 @@ class UrdfSource {
   std::size_t downgraded() const { return downgraded_; }  // errors that became warnings so far
   // Throws InputError with all errors in the order of their lines, if there are any.
   void check();
-  std::vector<Diagnostic> warnings() const;  // in the order of their lines
+  std::vector<Diagnostic> all_warnings() const;  // in the order of their lines
 
   // `fallback` is used if the attribute is missing; without it, a missing attribute is an error.
   std::optional<double> number(const XmlElement& element, const char* attribute,
@@ -82,9 +80,7 @@ class UrdfSource {
     std::size_t count = 0;
   };
 
-  std::filesystem::path file_;
   RobotFileOptions options_;
-  std::vector<Diagnostic> faults_, warnings_;
   std::map<std::string, Kind> kinds_;
   bool downgrade_ = false;
   std::size_t downgraded_ = 0;
