@@ -68,10 +68,11 @@ struct LaneRunner {
                         c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
                         c.rest.q == measured.rest.q;
       if (!same) add_target(c);
-      setup.springs.push_back(
-          {c.is_linear() ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional, c.measure,
-           c.discretization, c.absolute_damper, same ? 0 : setup.targets.size() - 1,
-           c.spring.body});
+      setup.springs.push_back({c.is_linear()                     ? SpringKind::linear
+                               : c.measure == SpringSpace::world ? SpringKind::world
+                                                                 : SpringKind::joint,
+                               c.discretization, c.absolute_damper,
+                               same ? 0 : setup.targets.size() - 1, c.spring.body});
     }
     if (!batch_faults(setup).empty() || !find_limits()) return false;
     runs = std::make_unique<BatchRun>(setup);

@@ -31,15 +31,13 @@ inline Model<double> locked_s103() {
 
 struct MapLaw {
   const char* name;
-  CouplingSpec::Type type;
-  SpringSpace measure;
+  SpringKind kind;
   double k, b;
   double quill;  // factor of the gains of the quill, whose inertia is a thousand times smaller
 };
-inline constexpr std::array<MapLaw, 3> kMapLaws{
-    {{"world", CouplingSpec::Type::torsional, SpringSpace::world, 300, 8, 1e-3},
-     {"joint", CouplingSpec::Type::torsional, SpringSpace::joint, 300, 8, 1e-3},
-     {"linear", CouplingSpec::Type::linear, SpringSpace::world, 3000, 60, 0.1}}};
+inline constexpr std::array<MapLaw, 3> kMapLaws{{{"world", SpringKind::world, 300, 8, 1e-3},
+                                                 {"joint", SpringKind::joint, 300, 8, 1e-3},
+                                                 {"linear", SpringKind::linear, 3000, 60, 0.1}}};
 
 // A map of k against b about the law's gains, all cells of it stable.
 class MapRuns {
@@ -54,7 +52,7 @@ class MapRuns {
     setup_.start.q = kvr.start().x.q;
     setup_.targets = {target};
     for (const int body : {1, 2, 3})
-      setup_.springs.push_back({law.type, law.measure, discretization, false, 0, body});
+      setup_.springs.push_back({law.kind, discretization, false, 0, body});
     setup_.duration = duration;
     setup_.measured = {0, 1, 2};
     for (std::size_t c = 0; c < cells; ++c) {
@@ -123,8 +121,8 @@ class MapRuns {
       const BatchSpring& spring = setup_.springs[s];
       const BatchCell::Gains& gains = cell.springs[s];
       CouplingSpec spec;
-      spec.type = spring.type;
-      spec.measure = spring.measure;
+      if (spring.kind == SpringKind::linear) spec.type = CouplingSpec::Type::linear;
+      if (spring.kind == SpringKind::joint) spec.measure = SpringSpace::joint;
       spec.discretization = spring.discretization;
       spec.springs = {{"spring", spring.body, gains.p_L, gains.k, gains.b}};
       couplings.push_back(make_coupling(spec, model_, kvr));

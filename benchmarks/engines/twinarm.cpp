@@ -10,26 +10,6 @@
 namespace twinarm::bench {
 namespace {
 
-// The number of situations in an S, and number k of them.
-template <class S>
-constexpr std::size_t lanes = 1;
-template <int N>
-constexpr std::size_t lanes<Batch<N>> = N;
-template <class S>
-void set_lane(S& all, std::size_t k, double value) {
-  if constexpr (lanes < S >> 1)
-    all.set(static_cast<int>(k), value);
-  else
-    all = static_cast<S>(value);
-}
-template <class S>
-double lane(const S& all, std::size_t k) {
-  if constexpr (lanes < S >> 1)
-    return all[static_cast<int>(k)];
-  else
-    return static_cast<double>(all);
-}
-
 template <class S>
 class TwinarmPasses : public FixedStepEngine {
  public:
@@ -43,16 +23,16 @@ class TwinarmPasses : public FixedStepEngine {
     M_.resize(model_.nv * model_.nv);
   }
   void set_situations(const std::vector<Situation>& situations) override {
-    const std::size_t count = (situations.size() + lanes<S> - 1) / lanes<S>;
+    const std::size_t count = (situations.size() + lanes - 1) / lanes;
     calls_.assign(count, Call{State<S>(model_), Forces<S>(model_), std::vector<S>(model_.nv)});
-    for (std::size_t k = 0; k < count * lanes<S>; ++k) {
+    for (std::size_t k = 0; k < count * lanes; ++k) {
       const Situation& s = situations[k % situations.size()];
-      Call& call = calls_[k / lanes<S>];
-      for (std::size_t i = 0; i < s.q.size(); ++i) set_lane(call.x.q[i], k % lanes<S>, s.q[i]);
+      Call& call = calls_[k / lanes];
+      for (std::size_t i = 0; i < s.q.size(); ++i) set_lane(call.x.q[i], k % lanes, s.q[i]);
       for (std::size_t i = 0; i < s.v.size(); ++i) {
-        set_lane(call.x.qd[i], k % lanes<S>, s.v[i]);
-        set_lane(call.forces.tau[i], k % lanes<S>, s.tau[i]);
-        set_lane(call.qdd[i], k % lanes<S>, s.qdd[i]);
+        set_lane(call.x.qd[i], k % lanes, s.v[i]);
+        set_lane(call.forces.tau[i], k % lanes, s.tau[i]);
+        set_lane(call.qdd[i], k % lanes, s.qdd[i]);
       }
     }
   }
@@ -60,16 +40,17 @@ class TwinarmPasses : public FixedStepEngine {
     for (const Call& call : calls_) run(algorithm, call);
   }
   std::vector<double> qdd(std::size_t k) override {
-    run(Algorithm::forward_dynamics, calls_[k / lanes<S>]);
+    run(Algorithm::forward_dynamics, calls_[k / lanes]);
     return of_lane(w_->qdd, k);
   }
   std::vector<double> tau(std::size_t k) override {
-    run(Algorithm::inverse_dynamics, calls_[k / lanes<S>]);
+    run(Algorithm::inverse_dynamics, calls_[k / lanes]);
     return of_lane(w_->tau, k);
   }
 
  protected:
-  struct Call {  // input of one call of a pass
+  static constexpr std::size_t lanes = sizeof(S) / sizeof(double);  // situations in a call
+  struct Call {                                                     // input of one call of a pass
     State<S> x;
     Forces<S> forces;
     std::vector<S> qdd;
@@ -77,7 +58,7 @@ class TwinarmPasses : public FixedStepEngine {
 
   static std::vector<double> of_lane(const std::vector<S>& by_velocity, std::size_t k) {
     std::vector<double> out;
-    for (const S& all : by_velocity) out.push_back(lane(all, k % lanes<S>));
+    for (const S& all : by_velocity) out.push_back(lane_of(all, k % lanes));
     return out;
   }
 

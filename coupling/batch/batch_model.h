@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "coupling/batch/batch_run.h"
-#include "coupling/batch/kernel/batch_state.h"
 #include "solver/model/model.h"
 #include "solver/spatial/pose.h"
 
@@ -20,10 +19,5 @@ struct ModelWithoutFixedJoints {
   // From link coordinates of a body's point to coordinates of its carrier.
   Vec3<double> point_of(const Model<double>& whole, std::size_t body, const Vector3& p_L) const;
 };
-
-inline SpringKind kind_of(const BatchSpring& spring) {
-  if (spring.type == CouplingSpec::Type::linear) return SpringKind::linear;
-  return spring.measure == SpringSpace::world ? SpringKind::world : SpringKind::joint;
-}
 
 }  // namespace twinarm

@@ -47,7 +47,7 @@ class BatchRunnerN final : public BatchRun::Driver {
         kernel_(kernel),
         merged_(*setup.model),
         motion_(setup),
-        work_(convert<S>(merged_.model)),
+        work_(convert<S>(merged_.model), motion_),
         lanes_(setup_, merged_, motion_, work_) {
     work_.owner = this;
     work_.stopped = [](Work& work, std::size_t lane, std::size_t step) {
@@ -81,13 +81,6 @@ class BatchRunnerN final : public BatchRun::Driver {
 
  private:
   void run_batch() {
-    work_.steps = motion_.steps;
-    work_.motion = motion_.motion.data();
-    work_.energy = motion_.energy.data();
-    work_.is_velocity_jump = motion_.is_velocity_jump.data();
-    work_.q_K = motion_.q_K.data();
-    work_.motion_stride = motion_.motion_stride;
-    work_.energy_stride = motion_.energy_stride;
     work_.lanes_running = count_;
     lanes_.start();
     for (std::size_t lane = 0; lane < N; ++lane) {
@@ -204,13 +197,10 @@ void check_spring(const BatchSetup& setup, std::size_t s, DiagnosticList& faults
   if (spring.target >= setup.targets.size())
     faults.add(where, "target " + std::to_string(spring.target) + " does not exist",
                "give an index below " + std::to_string(setup.targets.size()), "batch.target");
-  if (spring.type == CouplingSpec::Type::equivalent_torsional)
-    faults.add(where, "batched runs support torsional and linear springs only", kSingleRuns,
-               "batch.spring");
   if (spring.body <= 0 || spring.body >= model.body_count() || !moves(model, spring.body))
     faults.add(where, "body index " + std::to_string(spring.body) + " is not a moving link",
                "give the index of a moving link", "batch.link");
-  else if (spring.type == CouplingSpec::Type::torsional && spring.measure == SpringSpace::joint &&
+  else if (spring.kind == SpringKind::joint &&
            model.dofs(static_cast<std::size_t>(spring.body)) != 1)
     faults.add(where, "its joint has no degree of freedom", "give another link", "batch.joint");
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "coupling/analysis/tracking.h"
+#include "coupling/batch/kernel/batch_state.h"
 #include "coupling/laws/coupling.h"
 #include "solver/support/diagnostics.h"
 
@@ -27,8 +28,7 @@ struct BatchTarget {
 };
 
 struct BatchSpring {
-  CouplingSpec::Type type = CouplingSpec::Type::torsional;  // torsional or linear
-  SpringSpace measure = SpringSpace::world;                 // of a torsional one
+  SpringKind kind = SpringKind::world;
   Discretization discretization = Discretization::explicit_;
   bool absolute_damper = false;
   std::size_t target = 0;  // index in BatchSetup::targets

@@ -49,7 +49,7 @@ struct BatchMotion::Reader {
 BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()) {
   for (const BatchSpring& spring : setup.springs) {
     places.push_back({motion_stride, energy_stride});
-    const RowSizes size = row_sizes(kind_of(spring));
+    const RowSizes size = row_sizes(spring.kind);
     motion_stride += size.pose + size.velocity;
     energy_stride += size.pose + 2 * size.velocity + size.products;
   }
@@ -81,7 +81,7 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& m
     const BatchSpring& spring = setup.springs[s];
     const auto body = static_cast<std::size_t>(spring.body);
     const Vec3<double> p = merged.point_of(*setup.model, body, cell.springs[s].p_L);
-    readers.push_back({kind_of(spring), setup.model->iq[body], setup.model->iv[body],
+    readers.push_back({spring.kind, setup.model->iq[body], setup.model->iv[body],
                        merged.carrier[body], to_eigen(p), spring.discretization, spring.target});
   }
   double t = setup.start.t;
@@ -107,7 +107,7 @@ void BatchMotion::find_velocity_jumps(const BatchSetup& setup, double h) {
   is_velocity_jump.front() = is_velocity_jump.back() = 1;
   if (last_step != h) is_velocity_jump[steps - 1] = 1;
   for (std::size_t s = 0; s < places.size(); ++s) {
-    const RowSizes size = row_sizes(kind_of(setup.springs[s]));
+    const RowSizes size = row_sizes(setup.springs[s].kind);
     for (std::size_t n = 1; n < steps; ++n) {
       const double* before = &energy[n * energy_stride + places[s].energy + size.pose];
       if (!std::equal(before, before + size.velocity, before + size.velocity))

@@ -10,19 +10,14 @@
 namespace twinarm {
 
 // Row format: LaneSpring in batch_state.h.
-struct BatchMotion {
+struct BatchMotion : BatchTables {
   struct Frame {
     std::size_t motion, energy;  // offsets of a spring in the rows
   };
   std::vector<Frame> places;  // by spring
-  std::size_t motion_stride = 0, energy_stride = 0, joints = 0;
-  std::size_t steps = 0;               // the last one may be shorter
-  double last_step = 0;                // [s]
-  std::vector<double> motion;          // steps rows
-  std::vector<double> energy;          // steps + 1 rows
-  std::vector<char> is_velocity_jump;  // by row of `energy`: BatchWork
-  std::vector<double> q_K;             // steps + 1 rows
-  std::vector<double> low, high;       // of q_K, by joint
+  std::size_t joints = 0;
+  double last_step = 0;           // [s]
+  std::vector<double> low, high;  // of q_K, by joint
 
   explicit BatchMotion(const BatchSetup& setup);
   // Table for the step, motion and lever arms of a cell.

@@ -7,7 +7,6 @@
 
 #include "coupling/batch/batch_model.h"
 #include "coupling/batch/batch_targets.h"
-#include "coupling/batch/kernel/batch_state.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/forces/spring.h"
 #include "solver/model/convert_model.h"
@@ -15,12 +14,8 @@
 
 namespace twinarm {
 
-// ---- access to one lane of scalars, vectors and inertias ----
+// ---- access to one lane of vectors and inertias ----
 
-template <class V>
-void set_lane(V& all, std::size_t lane, double value) {
-  all.set(static_cast<int>(lane), value);
-}
 template <class S>
 void set_lane(Vec3<S>& all, std::size_t lane, const Vec3<double>& value) {
   set_lane(all.x, lane, value.x), set_lane(all.y, lane, value.y), set_lane(all.z, lane, value.z);
@@ -35,10 +30,6 @@ void set_lane(Inertia<S>& all, std::size_t lane, const Inertia<double>& value) {
   part(&Sym3<S>::xx, &Sym3<double>::xx), part(&Sym3<S>::yy, &Sym3<double>::yy);
   part(&Sym3<S>::zz, &Sym3<double>::zz), part(&Sym3<S>::xy, &Sym3<double>::xy);
   part(&Sym3<S>::xz, &Sym3<double>::xz), part(&Sym3<S>::yz, &Sym3<double>::yz);
-}
-template <class S>
-double lane_of(const S& all, std::size_t lane) {
-  return all[static_cast<int>(lane)];
 }
 
 inline SpringTime time_of(Discretization discretization) {
@@ -189,7 +180,7 @@ class Lanes {
       const BatchSpring& spring = setup_.springs[s];
       const auto body = static_cast<std::size_t>(spring.body);
       LaneSpring<S> lane_spring;
-      lane_spring.kind = kind_of(spring);
+      lane_spring.kind = spring.kind;
       lane_spring.body = merged_.carrier[body];
       lane_spring.iq = setup_.model->iq[body];
       lane_spring.iv = setup_.model->iv[body];

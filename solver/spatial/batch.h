@@ -5,6 +5,8 @@
 // only, all lanes use the general form of Ia, and results differ by rounding.
 #pragma once
 
+#include <cstddef>
+
 #include "solver/spatial/scalar.h"
 #include "solver/spatial/simd_vector.h"
 
@@ -60,5 +62,21 @@ template <int N>
 struct ConstantOf<Batch<N>> {
   using type = double;
 };
+
+// One lane; a double has one.
+inline void set_lane(double& a, std::size_t, double x) {
+  a = x;
+}
+template <int N>
+void set_lane(Batch<N>& a, std::size_t lane, double x) {
+  a.lanes[lane] = x;
+}
+inline double lane_of(double a, std::size_t) {
+  return a;
+}
+template <int N>
+double lane_of(const Batch<N>& a, std::size_t lane) {
+  return a.lanes[lane];
+}
 
 }  // namespace twinarm

@@ -22,7 +22,7 @@ def of_all(codes, reason):
 
 UNREACHABLE = {
     **of_all("arm.damping arm.mass arm.stiffness robot.mount", "name of a number or table, not a code"),
-    **of_all("batch.duration batch.friction batch.joint batch.link batch.measured batch.mimic batch.spring "
+    **of_all("batch.duration batch.friction batch.joint batch.link batch.measured batch.mimic "
              "batch.still-joint batch.target batch.targets batch.unknown-joint",
              "map falls back to single runs and does not report it"),
     **of_all("contact.geometry contact.group contact.pair coupling.gain coupling.joints coupling.link coupling.weld "

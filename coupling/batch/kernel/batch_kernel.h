@@ -48,8 +48,8 @@ SpringEnds<S> spring_ends(const BatchWork<S>& b, const LaneSpring<S>& lane_sprin
 // Time of step n: half of each power belongs to the step before, half to this one.
 template <class S>
 TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
-  const double* row = b.energy + n * b.energy_stride;
-  const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
+  const double* row = b.tables.energy.data() + n * b.tables.energy_stride;
+  const S before = S(0.5) * b.h_before, after = n < b.tables.steps ? S(0.5) * b.h : S(0);
   S input_before = b.input_work, input_after(0), held(0);
   b.dissipated_work = b.dissipated_work + (before + after) * b.dissipated_power;  // in the joints
   for (const LaneSpring<S>& lane_spring : b.springs) {
@@ -64,13 +64,13 @@ TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
   b.input_work_min = select(input_before < b.input_work_min, input_before, b.input_work_min);
   b.input_work = input_before + input_after;
   if (n == 0) b.spring_energy_at_start = held;
-  if (n == b.steps) b.spring_energy = held;
+  if (n == b.tables.steps) b.spring_energy = held;
 }
 
 // Without a jump both halves are equal; springs at links have already added their powers.
 template <class S>
 TWINARM_KERNEL void add_work(BatchWork<S>& b, std::size_t n) {
-  const double* row = b.energy + n * b.energy_stride;
+  const double* row = b.tables.energy.data() + n * b.tables.energy_stride;
   for (const LaneSpring<S>& lane_spring : b.springs) {
     if (lane_spring.kind != SpringKind::joint) continue;
     const double* target = row + lane_spring.energy;
@@ -103,11 +103,12 @@ struct LaneSprings {
   void after_pass_1() const {
     if (b.needs_rotations) update_rotations(b);
     if (b.needs_bias) update_bias(b);
-    const bool smooth = b.is_velocity_jump[n] == 0;
+    const bool smooth = b.tables.is_velocity_jump[n] == 0;
     start_powers(b);
     for (const LaneSpring<S>& lane_spring : b.springs)
       apply_spring(b, lane_spring, row + lane_spring.motion,
-                   smooth ? b.energy + n * b.energy_stride + lane_spring.energy : nullptr);
+                   smooth ? b.tables.energy.data() + n * b.tables.energy_stride + lane_spring.energy
+                          : nullptr);
     if (smooth)
       add_work(b, n);
     else
@@ -127,7 +128,7 @@ TWINARM_KERNEL void integrate(BatchWork<S>& b) {
 // Tracking errors after step n; stops diverged lanes.
 template <class S>
 TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
-  const double* q_K = b.q_K + (n + 1) * b.measured.size();
+  const double* q_K = b.tables.q_K.data() + (n + 1) * b.measured.size();
   S sum(0);
   for (std::size_t j = 0; j < b.measured.size(); ++j) {
     const S e = magnitude(S(q_K[j]) - b.x.q[b.measured[j]]);
@@ -145,7 +146,7 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
 template <class S>
 void run_steps(BatchWork<S>& b) {
   for (std::size_t n = b.first; n < b.last && b.lanes_running > 0; ++n) {
-    const double* row = b.motion + n * b.motion_stride;
+    const double* row = b.tables.motion.data() + n * b.tables.motion_stride;
     if (b.has_joint_springs || b.has_damping) apply_joint_springs(b, row);
     b.model.I = b.model.I_own.data();
     aba(b.model, b.x, b.forces, b.w, LaneSprings<S>{b, row, n});
@@ -153,10 +154,11 @@ void run_steps(BatchWork<S>& b) {
     b.h_before = b.h;
     measure(b, n);
   }
-  if (b.last < b.steps || b.lanes_running == 0) return;
+  if (b.last < b.tables.steps || b.lanes_running == 0) return;
   b.model.I = b.model.I_own.data();  // powers at the end, with the last row of the motion
   aba(b.model, b.x, b.forces, b.w,
-      LaneSprings<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
+      LaneSprings<S>{b, b.tables.motion.data() + (b.tables.steps - 1) * b.tables.motion_stride,
+                     b.tables.steps});
 }
 
 }  // namespace twinarm::TWINARM_ISA

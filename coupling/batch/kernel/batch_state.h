@@ -64,6 +64,16 @@ struct LaneSpring {
   Vec3<S> p_B, kp;  // linear: point in body axes, and k times it
 };
 
+// By step, shared by all lanes.
+struct BatchTables {
+  std::size_t motion_stride = 0, energy_stride = 0;
+  std::size_t steps = 0;               // the last one may be shorter
+  std::vector<double> motion;          // steps rows
+  std::vector<double> energy;          // steps + 1 rows
+  std::vector<char> is_velocity_jump;  // by row of `energy`: velocities or steps differ
+  std::vector<double> q_K;             // steps + 1 rows
+};
+
 // Kinematics needed of a body (batch_kinematics.h).
 enum class Frame : char { none, general, aligned, planar };
 
@@ -73,10 +83,11 @@ struct BatchWork {
   State<S> x;
   Forces<S> forces;  // f_ext stays zero
   Workspace<S> w;
-  S h;                                         // 0 in a stopped lane
-  S h_before;                                  // of the step before; 0 at the start
-  S bound;                                     // infinite in a stopped lane
-  std::size_t steps = 0, first = 0, last = 0;  // of the run; range for the kernel
+  S h;         // 0 in a stopped lane
+  S h_before;  // of the step before; 0 at the start
+  S bound;     // infinite in a stopped lane
+  const BatchTables& tables;
+  std::size_t first = 0, last = 0;  // steps, for the kernel
 
   // By body with springs: world to body axes, origin, bias acceleration.
   std::vector<Frame> frames;
@@ -86,11 +97,6 @@ struct BatchWork {
   std::vector<Vec3<S>> o;
   std::vector<Motion<S>> a_bias;
   std::vector<LaneSpring<S>> springs;
-
-  // Tables by step: `motion` has steps rows, the others steps + 1.
-  const double *motion = nullptr, *energy = nullptr, *q_K = nullptr;
-  const char* is_velocity_jump = nullptr;  // by row of `energy`: velocities or steps differ
-  std::size_t motion_stride = 0, energy_stride = 0;
 
   // By measured joint.
   std::vector<std::size_t> measured;                     // coordinates
@@ -103,7 +109,7 @@ struct BatchWork {
   void (*stopped)(BatchWork& work, std::size_t lane, std::size_t step) = nullptr;
   void* owner = nullptr;
 
-  explicit BatchWork(const Model<S>& m) : model(m), x(m), forces(m), w(m) {}
+  BatchWork(const Model<S>& m, const BatchTables& t) : model(m), x(m), forces(m), w(m), tables(t) {}
 };
 
 }  // namespace twinarm

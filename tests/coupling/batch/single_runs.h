@@ -16,13 +16,10 @@ namespace twinarm::testing {
 
 struct BatchLaw {
   const char* name;
-  CouplingSpec::Type type;
-  SpringSpace measure;
+  SpringKind kind;
 };
 inline constexpr std::array<BatchLaw, 3> kBatchLaws{
-    {{"world", CouplingSpec::Type::torsional, SpringSpace::world},
-     {"joint", CouplingSpec::Type::torsional, SpringSpace::joint},
-     {"linear", CouplingSpec::Type::linear, SpringSpace::world}}};
+    {{"world", SpringKind::world}, {"joint", SpringKind::joint}, {"linear", SpringKind::linear}}};
 inline constexpr std::array kBatchTreatments{
     Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit};
 
@@ -85,10 +82,9 @@ struct CellBench {
     setup.targets = {target};
     for (int body = 1; body < model.body_count(); ++body) {
       const bool fixed = model.joint[static_cast<std::size_t>(body)] == JointType::fixed;
-      if (fixed && law.measure == SpringSpace::joint) continue;
+      if (fixed && law.kind == SpringKind::joint) continue;
       BatchSpring spring;
-      spring.type = law.type;
-      spring.measure = law.measure;
+      spring.kind = law.kind;
       spring.discretization = discretization;
       spring.absolute_damper = absolute;
       spring.body = body;
@@ -121,8 +117,8 @@ class OneByOne {
       const BatchSpring& spring = setup.springs[s];
       kvrs_.push_back(kvr(spring.absolute_damper ? TargetRates::none : TargetRates::from_operator));
       CouplingSpec spec;
-      spec.type = spring.type;
-      spec.measure = spring.measure;
+      if (spring.kind == SpringKind::linear) spec.type = CouplingSpec::Type::linear;
+      if (spring.kind == SpringKind::joint) spec.measure = SpringSpace::joint;
       spec.discretization = spring.discretization;
       spec.springs = {
           {"spring", spring.body, cell.springs[s].p_L, cell.springs[s].k, cell.springs[s].b}};
@@ -204,12 +200,12 @@ class OneByOne {
     const BatchSpring& spring = setup_.springs[s];
     const auto i = static_cast<std::size_t>(spring.body);
     Ends e;
-    if (spring.type == CouplingSpec::Type::linear) {
+    if (spring.kind == SpringKind::linear) {
       const Vector3 p_D = k.position(spring.body, cell_.springs[s].p_L);
       const Vector3 p_K = K.k.position(spring.body, cell_.springs[s].p_L);
       return {p_K - p_D, k.velocity(spring.body, p_D), K.k.velocity(spring.body, p_K)};
     }
-    if (spring.measure == SpringSpace::world)
+    if (spring.kind == SpringKind::world)
       return {twinarm::rotation_vector(Matrix3(K.k.X_WL[i].R * k.X_WL[i].R.transpose())), k.w_WL[i],
               K.k.w_WL[i]};
     const std::size_t iq = model_.iq[i], iv = model_.iv[i];

@@ -140,15 +140,14 @@ TEST_CASE("unsupported batched runs are rejected with all reasons at once") {
   setup.model = &model;
   setup.start = State<double>(model);
   setup.targets = {{&hand, {{"joint1", "elbow"}, "", 0, 0}, setup.start}};
-  setup.springs = {{CouplingSpec::Type::equivalent_torsional, SpringSpace::world,
-                    Discretization::explicit_, false, 3, 0}};
+  setup.springs = {{SpringKind::world, Discretization::explicit_, false, 3, 0}};
   try {
     const BatchRun run(setup);
     FAIL("not refused");
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* fault : {"universal", "Coulomb", "elbow", "torsional and linear",
-                              "target 3 does not exist", "not a moving link", "duration"}) {
+    for (const char* fault : {"universal", "Coulomb", "elbow", "target 3 does not exist",
+                              "not a moving link", "duration"}) {
       CAPTURE(fault);
       CHECK(text.find(fault) != std::string::npos);
     }
