@@ -82,15 +82,6 @@ struct Options {
   bool quick = false;
 };
 
-Engines engines_of_build() {
-  Engines engines;
-  for (const EngineKind& kind : kinds_in_order()) {
-    Engines variants = kind.make();
-    if (variants.front()->is_timed_with_contacts()) engines.push_back(std::move(variants.front()));
-  }
-  return engines;
-}
-
 // Of one engine in one scene.
 struct Row {
   std::string engine, model;
@@ -153,7 +144,7 @@ void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
 std::vector<Row> measure(const Options& options, const std::string& model, Stages& stages) {
   TimedScene timed = timed_scene(model);
   if (options.quick) timed.steps = steps_per_turn;
-  Engines engines = engines_of_build();
+  Engines engines = engines_of_build(&Engine::is_timed_with_contacts);
   std::erase_if(engines, [&](const auto& e) { return !chosen(options.engines, e->name()); });
   std::vector<Row> rows(engines.size());
   const auto count = static_cast<double>(engines.size());
@@ -203,7 +194,7 @@ int main(int argc, char** argv) {
       "bench_contact");
   Options o;
   add_names(program, "--models", o.models, "default: all", o.models);
-  const Names engines = names_of(engines_of_build());
+  const Names engines = names_of(engines_of_build(&Engine::is_timed_with_contacts));
   add_names(program, "--engines", o.engines, "default: all of this build", engines);
   program.add_flag_callback(
       "--quick", [&] { o.quick = true, o.repetitions = 1; },

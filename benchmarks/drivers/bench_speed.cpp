@@ -24,12 +24,8 @@ struct Options {
   double seconds = 0.02;
 };
 
-Engines engines_of_build() {
-  Engines engines;
-  for (const EngineKind& kind : kinds_in_order())
-    for (auto& engine : kind.make())
-      if (engine->has(Algorithm::forward_dynamics)) engines.push_back(std::move(engine));
-  return engines;
+bool is_timed(const Engine& engine) {
+  return engine.has(Algorithm::forward_dynamics);
 }
 
 // Why there is no such model; empty if there is.
@@ -92,7 +88,7 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
              std::vector<Agreement>& agreement) {
   const Scene mechanism = bench::mechanism(model);
   const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
-  Engines engines = engines_of_build();
+  Engines engines = engines_of_build(is_timed);
   std::erase_if(engines, [&](const auto& engine) {  // but the first one, the reference
     return &engine != engines.data() && !chosen(options.engines, engine->name());
   });
@@ -171,7 +167,7 @@ int main(int argc, char** argv) {
                   "scara3, puma6, humanoid30, chainN; default: the six of the published table")
       ->delimiter(',')
       ->check(fault_of_model);
-  const Names engines = names_of(engines_of_build());
+  const Names engines = names_of(engines_of_build(is_timed));
   add_names(program, "--engines", o.engines, "default: all of this build", engines);
   add_names(program, "--algorithms", o.algorithms, "default: all",
             Names{"fd", "id", "crba", "fk", "step"});

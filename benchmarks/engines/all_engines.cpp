@@ -10,6 +10,14 @@ std::vector<EngineKind> kinds_in_order() {
   return kinds;
 }
 
+Engines engines_of_build(const std::function<bool(const Engine&)>& is_wanted) {
+  Engines engines;
+  for (const EngineKind& kind : kinds_in_order())
+    for (auto& engine : kind.make())
+      if (is_wanted(*engine)) engines.push_back(std::move(engine));
+  return engines;
+}
+
 std::vector<std::string> missing_engines() {
   return {TWINARM_MISSING};
 }

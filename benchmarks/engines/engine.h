@@ -10,6 +10,7 @@
 #pragma once
 
 #include <ctime>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -138,7 +139,8 @@ Engines one_engine() {
 
 const std::vector<EngineKind>& engine_kinds();  // made by twinarm_registry()
 std::vector<EngineKind> kinds_in_order();       // in this build
-std::vector<std::string> missing_engines();     // libraries not found
+Engines engines_of_build(const std::function<bool(const Engine&)>& is_wanted);  // all variants
+std::vector<std::string> missing_engines();  // libraries not found
 std::vector<std::string> names_of(const Engines& engines);
 
 inline double thread_seconds() {  // CPU time of this thread [s]

@@ -46,7 +46,6 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     rho0_[i] = inverse > 0 ? c.rows / inverse : 1;
   }
   link_discs();
-  report.islands = static_cast<int>(island_count_);
   solve_again_.resize(static_cast<std::size_t>(problem_->tree_count()));
   residual_.assign(solve_again_.size(), 0);
   for (std::size_t i = 0; i < island_count_; ++i) {

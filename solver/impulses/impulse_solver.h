@@ -30,7 +30,7 @@
 namespace twinarm {
 
 struct ImpulseReport {
-  int islands = 0, solved = 0;  // solved: islands whose initial guess was not accepted
+  int solved = 0;  // islands whose initial guess was not accepted
   // Maximum over the islands:
   int newton = 0;       // Newton steps
   int interior = 0;     // iterations of interior_point.cpp
