@@ -50,7 +50,8 @@ class TwinarmPasses : public FixedStepEngine {
 
  protected:
   static constexpr std::size_t lanes = sizeof(S) / sizeof(double);  // situations in a call
-  struct Call {                                                     // input of one call of a pass
+
+  struct Call {  // input of one call of a pass
     State<S> x;
     Forces<S> forces;
     std::vector<S> qdd;
