@@ -13,7 +13,7 @@ namespace twinarm {
 
 // A stopped run from a frame on.
 struct RemedyTrial {
-  static constexpr double kHold = 5;  // a fix holds if the run lasts so much longer [s]
+  static constexpr double kHold = 5;        // a fix holds if the run lasts so much longer [s]
   double max_cpu = 4, max_cpu_of_all = 12;  // of a fix, and of all [s]; slower ones are not offered
   static constexpr std::size_t kMaxTried = 10;
 
