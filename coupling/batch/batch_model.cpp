@@ -10,8 +10,8 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
   carrier.assign(n, 0);
   X.resize(n);
   const auto clear = [](auto&... lists) { (lists.clear(), ...); };
-  clear(model.body_name, model.joint_name, model.parent, model.last_child, model.joint, model.pitch,
-        model.iq, model.iv, model.Xtree, model.I, model.R_BL);
+  clear(model.body_name, model.joint_name, model.parent, model.joint, model.pitch, model.iq,
+        model.iv, model.Xtree, model.I, model.R_BL);
   for (std::size_t i = 0; i < n; ++i) {
     const auto p = static_cast<std::size_t>(i > 0 ? whole.parent[i] : 0);
     const Transform<double> X_joint = i > 0 ? whole.Xtree[i] * X[p] : Transform<double>{};
@@ -23,8 +23,6 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
       model.body_name.push_back(whole.body_name[i]);
       model.joint_name.push_back(whole.joint_name[i]);
       model.parent.push_back(i > 0 ? static_cast<int>(carrier[p]) : whole.parent[i]);
-      model.last_child.push_back(0);
-      if (i > 0) model.last_child[carrier[p]] = static_cast<int>(carrier[i]);
       model.joint.push_back(whole.joint[i]);
       model.pitch.push_back(whole.pitch[i]);
       model.iq.push_back(whole.iq[i]);
@@ -37,9 +35,9 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
     Inertia<double> own;
     Inertia<double>& all = model.I[carrier[i]];
     add_congruence(X[i], whole.I[i], own);
-    all.m += own.m, all.h += own.h, all.I += own.I;
+    all += own;
   }
-  index_names(model);
+  complete_tree(model);
 }
 
 Vec3<double> ModelWithoutFixedJoints::point_of(const Model<double>& whole, std::size_t body,

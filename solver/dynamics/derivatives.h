@@ -1,4 +1,7 @@
-// Derivatives of forward dynamics by automatic differentiation of aba(), Dual<8>.
+// Derivatives of inverse and forward dynamics by q, qd and tau, analytic, in O(n d).
+//
+// By q: along q exp(s e_k) at s = 0 (for vector joints the partial derivative). External wrenches
+// are fixed in body axes; forces.tau, forces.armature and forces.added_inertia are constants.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,12 +10,25 @@
 
 namespace twinarm {
 
-// nv x nv each. Column k of dq is d qdd / ds for q exp(s e_k) at s = 0 (for vector joints the
-// partial derivative). External wrenches are fixed in body axes.
+// solver/passes/rnea_derivatives.h: m.dtau, after rnea() or aba() at the same state; forces.tau is
+// not used.
+inline void rnea_derivatives(const Model<double>& model, const State<double>& x,
+                             const Forces<double>& forces, const std::vector<double>& qdd,
+                             Workspace<double>& w, MatrixWorkspace<double>& m) {
+  passes<double>().rnea_derivatives(model, x, forces, qdd, w, m);
+}
+// solver/passes/aba_derivatives.h: m.dqdd, m.Minv (d qdd / d tau) and m.dtau, after aba() at the
+// same state and forces.
+inline void aba_derivatives(const Model<double>& model, const State<double>& x,
+                            const Forces<double>& forces, Workspace<double>& w,
+                            MatrixWorkspace<double>& m) {
+  passes<double>().aba_derivatives(model, x, forces, w, m);
+}
+
+// The same as matrices nv x nv: d qdd / dq and d qdd / dqd. Allocates.
 struct ForwardDynamicsDerivatives {
   Eigen::MatrixXd dq, dqd;
 };
-// Allocates. forces.armature and forces.added_inertia are constants.
 ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& model,
                                                         const State<double>& x,
                                                         const Forces<double>& forces);

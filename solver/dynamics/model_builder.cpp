@@ -134,9 +134,23 @@ std::string joint_called(const std::string& name) {
   return "joint '" + name + "'";
 }
 
-void index_names(Model<double>& model) {
-  model.by_body_name = order_of(model.body_name);
-  model.by_joint_name = order_of(model.joint_name);
+void complete_tree(ModelTree& tree) {
+  tree.by_body_name = order_of(tree.body_name);
+  tree.by_joint_name = order_of(tree.joint_name);
+  const std::size_t n = tree.parent.size();
+  tree.last_child.assign(n, 0);
+  tree.chain_first.assign(n, 0);
+  std::vector<std::size_t> above(n);  // degrees of freedom of joint i and its ancestors
+  std::size_t pairs = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    const auto p = static_cast<std::size_t>(tree.parent[i]);
+    tree.last_child[p] = static_cast<int>(i);
+    tree.chain_first[i] = p > 0 && p + 1 == i ? tree.chain_first[p] : i;
+    above[i] = above[p] + tree.dofs(i);
+    pairs += above[i] * tree.dofs(i);
+  }
+  constexpr std::size_t kDeep = 7;  // mean of above: measured, scripts/bench
+  tree.is_deep = pairs > kDeep * tree.nv;
 }
 
 void ModelBuilder::check(const Body& body, int index, Names& names, DiagnosticList& faults) {
@@ -210,10 +224,7 @@ Model<double> ModelBuilder::build(bool kinematic) const {
     append(body, model, R_LB);
   }
   faults.check();
-  model.last_child.resize(model.parent.size());
-  for (int i = 1; i < model.body_count(); ++i)
-    model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
-  index_names(model);
+  complete_tree(model);
   add_mimics_to(model, faults);
   DiagnosticList ignored;
   Model<double> repaired = check_articulated_inertia(model, kinematic ? ignored : faults);

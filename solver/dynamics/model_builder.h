@@ -31,8 +31,9 @@ struct JointProperties {
 std::string link_called(const std::string& name);
 std::string joint_called(const std::string& name);
 
-// Fills by_body_name and by_joint_name from the names.
-void index_names(Model<double>& model);
+// Fills what follows from names, parents and joints: by_body_name, by_joint_name, last_child,
+// chain_first, is_deep.
+void complete_tree(ModelTree& tree);
 
 class ModelBuilder {
  public:

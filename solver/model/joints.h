@@ -12,6 +12,8 @@
 //   XJ(q)             transform from the joint's frame in the parent to the child's frame
 //   XJ(sincos)        the same from sine and cosine of q (revolute joint only)
 //   subspace(q)       motion subspace S, and S_is_constant
+//   series            ranges of qd: a joint whose S depends on q is simpler joints in series, from
+//                     the parent outwards
 //   vJ, cJ            S qd and its apparent derivative S' qd, if not S qd and 0
 //   identity(q)       writes the q at which the two frames coincide
 //   integrate         out = q exp(delta), delta with nv entries; out may be q
@@ -27,6 +29,18 @@
 #include "solver/spatial/rotation.h"
 
 namespace twinarm {
+
+// Velocities [first, end) of a joint or of a model.
+struct DofRange {
+  std::size_t first, end;
+};
+template <class Joint>
+constexpr auto series_of(const Joint&) {
+  if constexpr (requires { Joint::series; })
+    return Joint::series;
+  else
+    return std::array{DofRange{0, Joint::nv}};
+}
 
 // Use of the builder's axis: none; orientation of the joint frame; axis of rotation or translation.
 enum class AxisUse : unsigned char { none, frame, motion };
@@ -114,6 +128,7 @@ struct UniversalJoint : VectorJoint<S, 2> {
   static constexpr AxisUse axis = AxisUse::frame;
   static constexpr std::array<Coordinate, 2> coordinates{{{"first", true}, {"second", true}}};
   static constexpr bool S_is_constant = false;
+  static constexpr std::array<DofRange, 2> series{{{0, 1}, {1, 2}}};
   static Columns<S, 2> subspace(const S* q) {
     const SinCos<S> b = sin_cos(q[1]);
     return {{{{{-b.sin, S(0), b.cos}, {}}, {{S(0), S(1), S(0)}, {}}}}};
@@ -137,6 +152,7 @@ struct PlanarJoint : VectorJoint<S, 3> {
   static constexpr std::array<Coordinate, 3> coordinates{
       {{"x", false}, {"y", false}, {"angle", true}}};
   static constexpr bool S_is_constant = false;
+  static constexpr std::array<DofRange, 2> series{{{0, 2}, {2, 3}}};
   static Columns<S, 3> subspace(const S* q) {
     const SinCos<S> a = sin_cos(q[2]);
     return {{{{{}, {a.cos, -a.sin, S(0)}}, {{}, {a.sin, a.cos, S(0)}}, {{S(0), S(0), S(1)}, {}}}}};
@@ -185,6 +201,7 @@ struct FreeJoint {
                                                           {"turn_y", true},
                                                           {"turn_z", true}}};
   static constexpr bool S_is_constant = false;
+  static constexpr std::array<DofRange, 2> series{{{3, 6}, {0, 3}}};
   static FreeJointSubspace<S> subspace(const S* q) { return {quaternion_E(q + 3)}; }
   static Motion<S> cJ(const S* q, const S* qd) {  // E' v = -w x E v
     return {{}, cross(quaternion_E(q + 3) * Vec3<S>{qd[3], qd[4], qd[5]}, {qd[0], qd[1], qd[2]})};

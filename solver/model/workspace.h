@@ -11,6 +11,7 @@
 
 #include "solver/model/field_description.h"
 #include "solver/model/model.h"
+#include "solver/model/spatial_rows.h"
 
 namespace twinarm {
 
@@ -110,6 +111,11 @@ struct Workspace : BodyVelocities<S> {
   std::vector<S> tau;       // by velocity
   // mass matrix
   std::vector<Inertia<S>> Ic;  // composite inertia of the subtree
+  // matrices (crba_in_world_axes, minv_matrix, derivatives): from axes that all bodies of a tree
+  // share, parallel to those of the world, with the origin of the body that is next to the base;
+  // far from the world's origin moments about it would lose digits
+  std::vector<Transform<S>> Xr;
+  SpatialRows<S> axes;  // S in these axes, by velocity
   // M^-1 times a vector
   std::vector<Force<S>> p;    // bias force of the right-hand side
   std::vector<Motion<S>> dv;  // spatial acceleration for qdd = y
@@ -117,7 +123,7 @@ struct Workspace : BodyVelocities<S> {
 
   std::vector<std::size_t> iD;  // first index of D of body i
 
-  explicit Workspace(const Model<S>& model) : BodyVelocities<S>(model) {
+  explicit Workspace(const Model<S>& model) : BodyVelocities<S>(model), axes(model.nv) {
     const auto resize = [](std::size_t size, auto&... fields) { (fields.resize(size), ...); };
     const std::size_t n = model.parent.size();
     std::size_t entries = 0;
@@ -126,7 +132,7 @@ struct Workspace : BodyVelocities<S> {
       entries += model.dofs(i) * model.dofs(i);
     }
     resize(model.nq, sin, cos);
-    resize(n, X0, IA, pA, a, f, Ic, p, dv);
+    resize(n, X0, Xr, IA, pA, a, f, Ic, p, dv);
     resize(model.nv, U, u, qdd, tau, y);
     resize(entries, D, D_factors);
   }
@@ -167,5 +173,12 @@ struct Workspace : BodyVelocities<S> {
           a);
   }
 };
+
+// Computes and returns Xr of body i, from Xup of the body and Xr of its parent.
+template <class S>
+Transform<S> place(const Model<S>& model, std::size_t i, Workspace<S>& w) {
+  const auto p = static_cast<std::size_t>(model.parent[i]);
+  return w.Xr[i] = p > 0 ? w.Xup[i] * w.Xr[p] : Transform<S>{w.Xup[i].E, {}};
+}
 
 }  // namespace twinarm

@@ -4,19 +4,37 @@
 #include <span>
 #include <vector>
 
-#include "solver/model/workspace.h"
+#include "solver/model/matrix_workspace.h"
 
 namespace twinarm {
 
+// Those whose results are matrices, of double only.
 template <class S>
-struct Passes {
+struct MatrixPasses {};
+template <>
+struct MatrixPasses<double> {
+  void (*rnea_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
+                           const std::vector<double>&, Workspace<double>&,
+                           MatrixWorkspace<double>&);
+  void (*minv_matrix)(const Model<double>&, Workspace<double>&, MatrixWorkspace<double>&);
+  void (*aba_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
+                          Workspace<double>&, MatrixWorkspace<double>&);
+};
+
+template <class S>
+struct Passes : MatrixPasses<S> {
   void (*aba)(const Model<S>&, const State<S>&, const Forces<S>&, Workspace<S>&);
   void (*rnea)(const Model<S>&, const State<S>&, const std::vector<S>&,
                const std::vector<Force<S>>&, Workspace<S>&);
-  void (*crba)(const Model<S>&, const State<S>&, Workspace<S>&, std::span<S>);
+  using MassMatrix = void(const Model<S>&, const State<S>&, Workspace<S>&, std::span<S>);
+  MassMatrix *crba_in_body_axes, *crba_in_world_axes;
   void (*minv_times)(const Model<S>&, const std::vector<S>&, const std::vector<Force<S>>&,
                      Workspace<S>&);
   void (*kinematics)(const Model<S>&, const State<S>&, Workspace<S>&);
+
+  void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w, std::span<S> M) const {
+    (model.is_deep ? crba_in_world_axes : crba_in_body_axes)(model, x, w, M);
+  }
 };
 
 }  // namespace twinarm

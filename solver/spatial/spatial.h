@@ -72,6 +72,10 @@ Mat3<S> transpose(const Mat3<S>& a) {
   return {{a.r0.x, a.r1.x, a.r2.x}, {a.r0.y, a.r1.y, a.r2.y}, {a.r0.z, a.r1.z, a.r2.z}};
 }
 template <class S>
+S trace(const Mat3<S>& a) {
+  return a.r0.x + a.r1.y + a.r2.z;
+}
+template <class S>
 Mat3<S> outer(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.x * b, a.y * b, a.z * b};
 }
@@ -180,6 +184,10 @@ struct Inertia {
   S m{};
   Vec3<S> h;
   Sym3<S> I;
+  Inertia& operator+=(const Inertia& b) {
+    m = m + b.m, h += b.h, I += b.I;
+    return *this;
+  }
   friend Force<S> operator*(const Inertia& a, const Motion<S>& b) {
     return {plus_cross(a.I * b.w, a.h, b.v), minus_cross(a.m * b.v, a.h, b.w)};
   }

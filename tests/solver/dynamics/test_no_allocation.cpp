@@ -1,4 +1,5 @@
 // The algorithms and the functions of their results allocate nothing, for all scalars and levels.
+#include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/operational_space.h"
 #include "solver/dynamics/world_kinematics.h"
@@ -25,7 +26,8 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
       const Passes<S>& pass = passes<S>(isa);
       CHECK(allocations_in([&] { pass.aba(p.model_S, p.x_S, p.forces_S, w); }) == 0);
       CHECK(allocations_in([&] { pass.rnea(p.model_S, p.x_S, w.qdd, p.forces_S.f_ext, w); }) == 0);
-      CHECK(allocations_in([&] { pass.crba(p.model_S, p.x_S, w, M); }) == 0);
+      CHECK(allocations_in([&] { pass.crba_in_body_axes(p.model_S, p.x_S, w, M); }) == 0);
+      CHECK(allocations_in([&] { pass.crba_in_world_axes(p.model_S, p.x_S, w, M); }) == 0);
       CHECK(allocations_in([&] { pass.minv_times(p.model_S, zero, wrench, w); }) == 0);
       CHECK(allocations_in([&] { pass.kinematics(p.model_S, p.x_S, w); }) == 0);
     }
@@ -41,6 +43,18 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
             inverse_operational_inertia(p.model_S, tip, r, zero, wrench, w);
             p.forces_S.clear();
           }) == 0);
+  }
+}
+
+TEST_CASE("derivatives and the inverse mass matrix allocate nothing, for every joint") {
+  Random random(3);
+  for (const auto& types : lists_of_types()) {
+    const Packed<double> p(random, random_tree(random, 8, types));
+    Workspace<double> w(p.model);
+    MatrixWorkspace<double> m(p.model);
+    aba(p.model, p.x[0], p.forces[0], w);
+    CHECK(allocations_in([&] { minv_matrix(p.model, w, m); }) == 0);
+    CHECK(allocations_in([&] { aba_derivatives(p.model, p.x[0], p.forces[0], w, m); }) == 0);
   }
 }
 

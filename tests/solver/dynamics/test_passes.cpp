@@ -169,6 +169,36 @@ TEST_CASE_TEMPLATE("minv_times on unit vectors is the inverse of M and symmetric
   CHECK(symmetric <= 1e-12);
 }
 
+TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric to the bit") {
+  Random random(8);
+  double inverse = 0, forms = 0;
+  for (const auto& types : lists_of_types())
+    for (int n = 0; n < 20; ++n) {
+      const Packed<double> p(random, random_tree(random, random.integer(1, 20), types));
+      const std::size_t nv = p.model.nv;
+      if (nv == 0) continue;
+      for (const Isa isa : levels_of<double>()) {
+        const Passes<double>& pass = passes<double>(isa);
+        Workspace<double> w(p.model);
+        MatrixWorkspace<double> m(p.model);
+        pass.aba(p.model, p.x[0], Forces<double>(p.model), w);
+        pass.minv_matrix(p.model, w, m);
+        std::vector<double> in_body_axes(nv * nv), in_world_axes(nv * nv);
+        pass.crba_in_body_axes(p.model, p.x[0], w, in_body_axes);
+        pass.crba_in_world_axes(p.model, p.x[0], w, in_world_axes);
+        const MatrixXd M = square_of(in_body_axes, nv, 0), Minv = square_of(m.Minv, nv, 0);
+        const auto size = static_cast<Eigen::Index>(nv);
+        inverse = std::max(
+            inverse, (M * Minv - MatrixXd::Identity(size, size)).norm() / (M.norm() * Minv.norm()));
+        forms = std::max(forms, (M - square_of(in_world_axes, nv, 0)).norm() / M.norm());
+        CHECK(Minv == Minv.transpose());
+      }
+    }
+  MESSAGE("|M Minv - 1| / (|M||Minv|) = " << inverse << ", forms of M differ by " << forms);
+  CHECK(inverse <= 2e-14);
+  CHECK(forms <= 1e-14);
+}
+
 TEST_CASE("minv_times with wrenches on bodies is M^-1 J^T f, with their accelerations") {
   Random random(6);
   for (const auto& types : lists_of_types())

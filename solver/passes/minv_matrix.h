@@ -1,0 +1,100 @@
+// M^-1 as a matrix, in O(n d) and O(n^2) for its entries: Carpentier (2018).
+//
+// Row i of the upper triangle is the acceleration of joint i for a unit force at each joint j >= i.
+// As in minv_times(), pass 2 of ABA carries the wrenches F of all unit forces in the subtree to its
+// root, pass 3 the accelerations P of the bodies to the tips:
+//
+//   tips to base   M^-1_ii = D_i^-1,   M^-1_ij = -D_i^-1 S_i^T F_j,   F_j += U_i M^-1_ij   (j below i)
+//   base to tips   M^-1_ij -= D_i^-1 U_i^T P_j,   P_j += S_i M^-1_ij                       (all j >= i)
+//
+// In the axes of Workspace::Xr, F and P are not transformed from body to body, and each is a row of
+// numbers.
+// Reads Xup, S, U and D_factors of aba() at the same q: M contains armature and the implicit terms
+// of that call. Writes m.Minv, both triangles. Interface: solver/dynamics/dynamics.h.
+#pragma once
+
+#include "solver/model/joint_slice.h"
+#include "solver/model/matrix_workspace.h"
+#include "solver/passes/dense_matrix.h"
+
+namespace twinarm::TWINARM_ISA {
+
+// The factors in the common axes, and the diagonal blocks of M^-1.
+template <class S>
+void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      const Transform<S> X = place(model, i, w);
+      const std::size_t iv = model.iv[i];
+      std::array<Motion<S>, joint.nv> axes;
+      std::array<Force<S>, joint.nv> U;
+      for (std::size_t k = 0; k < joint.nv; ++k) {
+        m.S_[iv + k] = six(axes[k] = to_world_axes(X, w.S_[iv + k]));
+        m.U[iv + k] = six(U[k] = transpose_times(X, w.U[iv + k]));
+      }
+      const auto factors = slice_spd<joint.nv>(w.D_factors, w.iD[i]);
+      for (std::size_t r = 0; r < joint.nv; ++r) {
+        const auto Dinv = solve(factors, unit_vector<S, joint.nv>(r));
+        Motion<S> DinvS;
+        Force<S> DinvU;
+        for (std::size_t k = 0; k < joint.nv; ++k) {
+          m.Minv[(iv + r) * model.nv + iv + k] = Dinv[k];
+          DinvS += Dinv[k] * axes[k];
+          DinvU += Dinv[k] * U[k];
+        }
+        m.DinvS[iv + r] = six(DinvS);
+        m.DinvU[iv + r] = six(DinvU);
+      }
+    });
+}
+
+template <class S>
+[[gnu::flatten]] void minv_matrix(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m) {
+  const std::size_t n_bodies = model.parent.size(), nv = model.nv;
+  std::vector<S>& Minv = m.Minv;
+  std::ranges::fill(Minv, S(0));
+  factors_in_common_axes(model, w, m);
+
+  const auto F = m.F.pointers();
+  for (std::size_t i = n_bodies; i-- > 1;) {
+    const DofRange own{model.iv[i], model.iv[i] + model.dofs(i)};
+    for (std::size_t r = own.first; r < own.end; ++r)
+      for (const DofRange& below : m.below[i]) {
+        S* const row = &Minv[r * nv];
+        const Six<S> DinvS = m.DinvS[r];
+#pragma GCC ivdep
+        for (std::size_t j = below.first; j < below.end; ++j) row[j] = -dot(DinvS, F, j);
+      }
+    if (model.parent[i] == 0) continue;
+    for (std::size_t j = own.first; j < own.end; ++j) m.F.set(j, {});
+    for (std::size_t r = own.first; r < own.end; ++r) {
+      add_outer(m.U[r], &Minv[r * nv], own, F);
+      for (const DofRange& below : m.below[i]) add_outer(m.U[r], &Minv[r * nv], below, F);
+    }
+  }
+
+  for (std::size_t i = 1; i < n_bodies; ++i) {
+    const auto p = static_cast<std::size_t>(model.parent[i]);
+    const std::size_t first = model.iv[i], end = first + model.dofs(i);
+    if (p > 0) {
+      const auto P = m.P[m.iP[p]].pointers();
+      for (std::size_t r = first; r < end; ++r) {
+        S* const row = &Minv[r * nv];
+        const Six<S> DinvU = m.DinvU[r];
+#pragma GCC ivdep
+        for (std::size_t j = first; j < nv; ++j) row[j] = row[j] - dot(DinvU, P, j);
+      }
+    }
+    if (model.last_child[i] == 0) continue;
+    SpatialRows<S>& P = m.P[m.iP[i]];
+    if (p == 0)
+      for (std::size_t j = end; j < nv; ++j) P.set(j, {});
+    else if (m.iP[i] != m.iP[p])
+      P = m.P[m.iP[p]];
+    for (std::size_t r = first; r < end; ++r)
+      add_outer(m.S_[r], &Minv[r * nv], {end, nv}, P.pointers());
+  }
+  mirror_triangle<Triangle::upper>(nv, Minv.data());
+}
+
+}  // namespace twinarm::TWINARM_ISA
