@@ -75,6 +75,7 @@ class Output {
   Output(const char* function, PyObject* given, const Calls& calls,
          std::initializer_list<std::size_t> shape);
   double* row(std::size_t r) { return data_ + r * size_; }
+  PyObject* get() const { return kept_.ptr(); }
   PyObject* release() { return kept_.release().ptr(); }
 
  private:

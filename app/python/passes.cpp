@@ -3,7 +3,7 @@
 #include "app/python/arrays.h"
 #include "app/python/fast_arguments.h"
 #include "app/python/signals.h"
-#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/derivatives.h"
 
 namespace twinarm::python {
 namespace {
@@ -36,6 +36,11 @@ void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot)
   q.copy(call, robot.q_python);
   if (!robot.quaternions.empty()) robot.check_quaternions(robot.q_python, function);
   set_q_with_prescribed(robot.model, robot.q_python, robot.x);
+}
+
+MatrixWorkspace<double>& matrices_of(Robot& robot) {
+  if (!robot.matrices) robot.matrices.emplace(robot.model);
+  return *robot.matrices;
 }
 
 // Wrenches from link axes to body axes; zero if none are given.
@@ -78,6 +83,37 @@ PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject
       of.has_run_aba = true;
     });
     return out.release();
+  });
+}
+
+constexpr std::array kDerivatives{"model", "q", "qd", "tau", "f_ext"};
+PyObject* call_aba_derivatives(PyObject*, PyObject* const* given, Py_ssize_t count,
+                               PyObject* keywords) {
+  constexpr const char* kName = "aba_derivatives";
+  return guarded([&] {
+    const Arguments<kDerivatives.size()> a(kName, kDerivatives, 4, given, count, keywords);
+    Robot& robot = robot_of(kName, a.at[0]);
+    const std::size_t nv = robot.model.nv;
+    const Rows q(kName, "q", a.at[1], robot.nq(), robot), qd(kName, "qd", a.at[2], nv, robot),
+        tau(kName, "tau", a.at[3], nv, robot);
+    const Calls calls(kName, {&q, &qd, &tau});
+    Output by_q(kName, nullptr, calls, {nv, nv}), by_qd(kName, nullptr, calls, {nv, nv}),
+        by_tau(kName, nullptr, calls, {nv, nv});
+    take_wrenches(kName, a.at[4], robot, robot.forces.f_ext);
+    AbaDerivatives<double> all(robot.model);
+    for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
+      take_q(kName, q, i, of);
+      qd.copy(i, of.x.qd);
+      tau.copy(i, of.forces.tau);
+      aba(of.model, of.x, of.forces, of.w);
+      aba_derivatives(of.model, of.x, of.forces, of.w, matrices_of(of), all);
+      for (std::size_t k = 0; k < nv; ++k) {
+        std::copy_n(&all.dqdd[2 * nv * k], nv, by_q.row(i) + nv * k);
+        std::copy_n(&all.dqdd[2 * nv * k + nv], nv, by_qd.row(i) + nv * k);
+      }
+      std::ranges::copy(all.Minv, by_tau.row(i));
+    });
+    return PyTuple_Pack(3, by_q.get(), by_qd.get(), by_tau.get());
   });
 }
 
@@ -131,14 +167,8 @@ PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
     const std::size_t nv = robot.model.nv;
     std::ranges::fill(robot.x.qd, 0.0);
     const Forces<double> none(robot.model);
-    aba(robot.model, robot.x, none, robot.w);  // leaves the inertias that minv_times() uses
-    std::vector<double>& unit = robot.qdd;
-    for (std::size_t k = 0; k < nv; ++k) {
-      std::ranges::fill(unit, 0.0);
-      unit[k] = 1;
-      minv_times(robot.model, unit, none.f_ext, robot.w);
-      std::copy_n(robot.w.y.data(), nv, M_inverse + k * nv);
-    }
+    aba(robot.model, robot.x, none, robot.w);  // the factors of minv_matrix()
+    minv_matrix(robot.model, robot.w, matrices_of(robot), {M_inverse, nv * nv});
   });
 }
 
@@ -160,6 +190,15 @@ PyMethodDef methods[] = {
      "  out    (nv,) or (N, nv)  array for the result; default: a new one\n\n"
      "Returns qdd (nv,) or (N, nv) [rad/s^2, m/s^2], without joint damping, friction and mimic\n"
      "joints (see forward_dynamics()). Quantities of the last state: model.workspace()."},
+    {"aba_derivatives", as_method(call_aba_derivatives), kFast,
+     "aba_derivatives(model, q, qd, tau, f_ext=None)\n--\n\n"
+     "Derivatives of aba(), analytic (Singh, Russell and Wensing 2022), in O(n d).\n\n"
+     "  q, qd, tau, f_ext  as of aba(); one state or N\n\n"
+     "Returns (dqdd_dq, dqdd_dqd, dqdd_dtau), each (nv, nv) or (N, nv, nv): row k is joint force "
+     "or\n"
+     "acceleration k. dqdd_dq is along the velocities of the joints (the angular velocity of a "
+     "ball\n"
+     "joint, not its quaternion). dqdd_dtau is the inverse of the mass matrix."},
     {"rnea", as_method(call_rnea), kFast,
      "rnea(model, q, qd, qdd, f_ext=None, out=None)\n--\n\n"
      "Inverse dynamics by the recursive Newton-Euler algorithm, RBDA table 5.1, in O(n).\n\n"
@@ -177,7 +216,8 @@ PyMethodDef methods[] = {
      "Returns M (nv, nv) or (N, nv, nv) [kg m^2, kg m, kg], rotors on the diagonal included."},
     {"minv", as_method(call_minv), kFast,
      "minv(model, q, out=None)\n--\n\n"
-     "The inverse of the mass matrix, column by column from the articulated inertias, O(n^2).\n\n"
+     "The inverse of the mass matrix from the articulated-body inertias (Carpentier 2018), "
+     "O(n^2).\n\n"
      "  q    (nq,) or (N, nq)  joint coordinates [rad, m]\n"
      "  out  (nv, nv) or (N, nv, nv)  array for the result; default: a new one\n\n"
      "Returns M^-1 (nv, nv) or (N, nv, nv) [1/(kg m^2), 1/(kg m), 1/kg]."},

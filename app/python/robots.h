@@ -28,8 +28,9 @@ class Robot : public OnlyConstructed {
   std::vector<double> q_python;  // with prescribed motions
   Forces<double> forces;         // of aba()
   Workspace<double> of_aba, w;
-  std::vector<double> qdd;           // of rnea()
-  std::vector<Force<double>> f_ext;  // of rnea()
+  std::optional<MatrixWorkspace<double>> matrices;  // of minv() and aba_derivatives()
+  std::vector<double> qdd;                          // of rnea()
+  std::vector<Force<double>> f_ext;                 // of rnea()
   bool has_run_aba = false;
   std::vector<std::size_t> quaternions;  // their start indices in q
 

@@ -10,19 +10,19 @@
 
 namespace twinarm {
 
-// solver/passes/rnea_derivatives.h: m.dtau, after rnea() or aba() at the same state; forces.tau is
-// not used.
+// solver/passes/rnea_derivatives.h: dtau = (d tau/dq, d tau/dqd), nv x 2 nv, row-major; after
+// rnea() or aba() at the same state. forces.tau is not used.
 inline void rnea_derivatives(const Model<double>& model, const State<double>& x,
                              const Forces<double>& forces, const std::vector<double>& qdd,
-                             Workspace<double>& w, MatrixWorkspace<double>& m) {
-  passes<double>().rnea_derivatives(model, x, forces, qdd, w, m);
+                             Workspace<double>& w, MatrixWorkspace<double>& m,
+                             std::span<double> dtau) {
+  passes<double>().rnea_derivatives(model, x, forces, qdd, w, m, dtau);
 }
-// solver/passes/aba_derivatives.h: m.dqdd, m.Minv (d qdd / d tau) and m.dtau, after aba() at the
-// same state and forces.
+// solver/passes/aba_derivatives.h, after aba() at the same state and forces.
 inline void aba_derivatives(const Model<double>& model, const State<double>& x,
                             const Forces<double>& forces, Workspace<double>& w,
-                            MatrixWorkspace<double>& m) {
-  passes<double>().aba_derivatives(model, x, forces, w, m);
+                            MatrixWorkspace<double>& m, AbaDerivatives<double>& out) {
+  passes<double>().aba_derivatives(model, x, forces, w, m, out);
 }
 
 // The same as matrices nv x nv: d qdd / dq and d qdd / dqd. Allocates.

@@ -52,10 +52,11 @@ void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
 }
 // The same as an Eigen matrix. Allocates.
 Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x);
-// Inverse mass matrix, solver/passes/minv_matrix.h: m.Minv, after aba() at the same q.
+// Inverse mass matrix, solver/passes/minv_matrix.h: Minv, nv x nv, row-major, after aba() at the
+// same q.
 inline void minv_matrix(const Model<double>& model, Workspace<double>& w,
-                        MatrixWorkspace<double>& m) {
-  passes<double>().minv_matrix(model, w, m);
+                        MatrixWorkspace<double>& m, std::span<double> Minv) {
+  passes<double>().minv_matrix(model, w, m, Minv);
 }
 // M^-1 (b + J^T f), solver/passes/minv.h: w.y, after aba() at the same q.
 template <class S>

@@ -30,12 +30,19 @@ struct SubtreeSums {
   }
 };
 
+// Results of aba_derivatives(), row-major.
+template <class S>
+struct AbaDerivatives {
+  std::vector<S> dqdd;  // (d qdd/dq, d qdd/dqd), nv x 2 nv
+  std::vector<S> Minv;  // d qdd/d tau, nv x nv
+  std::vector<S> dtau;  // of inverse dynamics at qdd: (d tau/dq, d tau/dqd), nv x 2 nv
+
+  explicit AbaDerivatives(const Model<S>& model)
+      : dqdd(2 * model.nv * model.nv), Minv(model.nv * model.nv), dtau(dqdd.size()) {}
+};
+
 template <class S>
 struct MatrixWorkspace {
-  // results, row-major
-  std::vector<S> dtau;  // (d tau/dq, d tau/dqd) of inverse dynamics, nv x 2 nv
-  std::vector<S> Minv;  // inverse mass matrix, nv x nv
-  std::vector<S> dqdd;  // (d qdd/dq, d qdd/dqd) of forward dynamics, nv x 2 nv
   // derivatives, by body
   std::vector<Motion<S>> v, a;
   std::vector<SubtreeSums<S>> sums;
@@ -43,9 +50,9 @@ struct MatrixWorkspace {
   SpatialRows<S> axes, dS, ddS, sS;
   // inverse mass matrix, by velocity
   std::vector<Six<S>> S_, U, DinvS, DinvU;  // columns of S and U, rows of D^-1 S^T and D^-1 U^T
-  SpatialRows<S> F;                        // wrench at the root of the subtree, by column
-  std::vector<SpatialRows<S>> P;           // acceleration of a body with children, by column
-  std::vector<std::size_t> iP;            // index in P of such a body; last children reuse one
+  SpatialRows<S> F;                         // wrench at the root of the subtree, by column
+  std::vector<SpatialRows<S>> P;            // acceleration of a body with children, by column
+  std::vector<std::size_t> iP;              // index in P of such a body; last children reuse one
   // tree
   std::vector<std::vector<DofRange>> below;  // velocities of the descendants of a body
 
@@ -54,10 +61,7 @@ struct MatrixWorkspace {
 
 template <class S>
 MatrixWorkspace<S>::MatrixWorkspace(const Model<S>& model)
-    : dtau(2 * model.nv * model.nv),
-      Minv(model.nv * model.nv),
-      dqdd(dtau.size()),
-      v(model.parent.size()),
+    : v(model.parent.size()),
       a(v.size()),
       sums(v.size()),
       axes(model.nv),

@@ -4,14 +4,18 @@
 // As in minv_times(), pass 2 of ABA carries the wrenches F of all unit forces in the subtree to its
 // root, pass 3 the accelerations P of the bodies to the tips:
 //
-//   tips to base   M^-1_ii = D_i^-1,   M^-1_ij = -D_i^-1 S_i^T F_j,   F_j += U_i M^-1_ij   (j below i)
-//   base to tips   M^-1_ij -= D_i^-1 U_i^T P_j,   P_j += S_i M^-1_ij                       (all j >= i)
+//   tips to base   M^-1_ii = D_i^-1,   M^-1_ij = -D_i^-1 S_i^T F_j,   F_j += U_i M^-1_ij   (j below
+//   i) base to tips   M^-1_ij -= D_i^-1 U_i^T P_j,   P_j += S_i M^-1_ij                       (all
+//   j >= i)
 //
 // In the axes of Workspace::Xr, F and P are not transformed from body to body, and each is a row of
 // numbers.
 // Reads Xup, S, U and D_factors of aba() at the same q: M contains armature and the implicit terms
-// of that call. Writes m.Minv, both triangles. Interface: solver/dynamics/dynamics.h.
+// of that call. Writes Minv, nv x nv, row-major,
+// both triangles. Interface: solver/dynamics/dynamics.h.
 #pragma once
+
+#include <span>
 
 #include "solver/model/joint_slice.h"
 #include "solver/model/matrix_workspace.h"
@@ -21,7 +25,8 @@ namespace twinarm::TWINARM_ISA {
 
 // The factors in the common axes, and the diagonal blocks of M^-1.
 template <class S>
-void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m) {
+void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m,
+                            std::span<S> Minv) {
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint(model, i, [&](auto joint) {
       const Transform<S> X = place(model, i, w);
@@ -38,7 +43,7 @@ void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorksp
         Motion<S> DinvS;
         Force<S> DinvU;
         for (std::size_t k = 0; k < joint.nv; ++k) {
-          m.Minv[(iv + r) * model.nv + iv + k] = Dinv[k];
+          Minv[(iv + r) * model.nv + iv + k] = Dinv[k];
           DinvS += Dinv[k] * axes[k];
           DinvU += Dinv[k] * U[k];
         }
@@ -49,11 +54,11 @@ void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorksp
 }
 
 template <class S>
-[[gnu::flatten]] void minv_matrix(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m) {
+[[gnu::flatten]] void minv_matrix(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m,
+                                  std::span<S> Minv) {
   const std::size_t n_bodies = model.parent.size(), nv = model.nv;
-  std::vector<S>& Minv = m.Minv;
   std::ranges::fill(Minv, S(0));
-  factors_in_common_axes(model, w, m);
+  factors_in_common_axes(model, w, m, Minv);
 
   const auto F = m.F.pointers();
   for (std::size_t i = n_bodies; i-- > 1;) {

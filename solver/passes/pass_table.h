@@ -14,11 +14,12 @@ struct MatrixPasses {};
 template <>
 struct MatrixPasses<double> {
   void (*rnea_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
-                           const std::vector<double>&, Workspace<double>&,
-                           MatrixWorkspace<double>&);
-  void (*minv_matrix)(const Model<double>&, Workspace<double>&, MatrixWorkspace<double>&);
+                           const std::vector<double>&, Workspace<double>&, MatrixWorkspace<double>&,
+                           std::span<double>);
+  void (*minv_matrix)(const Model<double>&, Workspace<double>&, MatrixWorkspace<double>&,
+                      std::span<double>);
   void (*aba_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
-                          Workspace<double>&, MatrixWorkspace<double>&);
+                          Workspace<double>&, MatrixWorkspace<double>&, AbaDerivatives<double>&);
 };
 
 template <class S>

@@ -1,4 +1,5 @@
-// Derivatives of inverse dynamics by q and qd, in O(n d): d tau / d q and d tau / d qd at given qdd.
+// Derivatives of inverse dynamics by q and qd, in O(n d): d tau / d q and d tau / d qd at given
+// qdd.
 //
 // Carpentier and Mansard (2018); in the form of Singh, Russell and Wensing (2022), in the axes of
 // Workspace::Xr.
@@ -13,13 +14,16 @@
 // 2 B = (v x*) I - I (v x) + (I v) xbar* of the paper acts on the angular part e of a motion alone:
 // with R = sum of m v r^T over the points of the body and its linear momentum P,
 //   2 B (e; .) = (2 (tr(R) e - R e); 2 e x P).
-// Inertias A that springs add (Forces::added_inertia) are in IA only, not in v x* I v: they add A to
-// I and -A (v x) to 2 B. docs/understand/derivatives.md derives both.
+// Inertias A that springs add (Forces::added_inertia) are in IA only, not in v x* I v: they add A
+// to I and -A (v x) to 2 B. docs/understand/derivatives.md derives both.
 //
-// q: along the velocities of the joints (q exp(s e_k)). Joints whose S depends on q are simpler joints
-// in series (series_of). External wrenches are fixed in body axes. Reads Xup and S of aba() or rnea()
-// at the same state; writes m.dtau. Interface: solver/dynamics/derivatives.h.
+// q: along the velocities of the joints (q exp(s e_k)). Joints whose S depends on q are simpler
+// joints in series (series_of). External wrenches are fixed in body axes. Reads Xup and S of aba()
+// or rnea() at the same state; writes dtau = (d tau/dq, d tau/dqd), nv x 2 nv, row-major.
+// Interface: solver/dynamics/derivatives.h.
 #pragma once
+
+#include <span>
 
 #include "solver/model/matrix_workspace.h"
 #include "solver/spatial/instruction_set.h"
@@ -61,7 +65,7 @@ void add_added_inertia(const Transform<S>& X, const ArticulatedInertia<S>& A_B, 
 // From the base to the tips: motions, and the sums of each body alone.
 template <class S>
 void motions(const Model<S>& model, const State<S>& x, const Forces<S>& forces,
-                   const std::vector<S>& qdd, Workspace<S>& w, MatrixWorkspace<S>& m) {
+             const std::vector<S>& qdd, Workspace<S>& w, MatrixWorkspace<S>& m) {
   m.v[0] = {};
   m.a[0] = {{}, -model.gravity};
   for (std::size_t i = 1; i < model.parent.size(); ++i)
@@ -94,8 +98,7 @@ void motions(const Model<S>& model, const State<S>& x, const Forces<S>& forces,
       }
       m.v[i] = v, m.a[i] = a;
       m.sums[i] = sums_of_body(X, model.I[i], forces.f_ext[i], v, a);
-      if (forces.has_added_inertia)
-        add_added_inertia(X, forces.added_inertia[i], v, a, m.sums[i]);
+      if (forces.has_added_inertia) add_added_inertia(X, forces.added_inertia[i], v, a, m.sums[i]);
     });
 }
 
@@ -123,9 +126,9 @@ Force<S> twice_B_transposed(const SubtreeSums<S>& sums, bool has_added_inertia,
 template <class S>
 [[gnu::flatten]] void rnea_derivatives(const Model<S>& model, const State<S>& x,
                                        const Forces<S>& forces, const std::vector<S>& qdd,
-                                       Workspace<S>& w, MatrixWorkspace<S>& m) {
+                                       Workspace<S>& w, MatrixWorkspace<S>& m, std::span<S> dtau) {
   motions(model, x, forces, qdd, w, m);
-  std::ranges::fill(m.dtau, S(0));
+  std::ranges::fill(dtau, S(0));
   const std::size_t nv = model.nv;
   const bool added = forces.has_added_inertia;
   const auto axes = m.axes.pointers(), dS = m.dS.pointers(), ddS = m.ddS.pointers(),
@@ -133,15 +136,13 @@ template <class S>
 
   for (std::size_t i = model.parent.size(); i-- > 1;) {
     const SubtreeSums<S>& sums = m.sums[i];
-    const auto I = [&](const Motion<S>& e) {
-      return added ? sums.I * e + sums.A * e : sums.I * e;
-    };
+    const auto I = [&](const Motion<S>& e) { return added ? sums.I * e + sums.A * e : sums.I * e; };
     const auto of_group = [&](const DofRange& group, auto&& visit_before) {
       for (std::size_t k = model.iv[i] + group.first; k < model.iv[i] + group.end; ++k) {
         const Motion<S> axis = m.axes.motion(k);
         const Six<S> I_axis = six(I(axis)), B_axis = six(twice_B_transposed(sums, added, axis));
         const auto row = [&](const DofRange& of) {
-          S *const by_q = &m.dtau[2 * nv * k], *const by_qd = by_q + nv;
+          S *const by_q = &dtau[2 * nv * k], *const by_qd = by_q + nv;
 #pragma GCC ivdep
           for (std::size_t j = of.first; j < of.end; ++j) {
             by_q[j] = dot(I_axis, ddS, j) + dot(B_axis, dS, j);
@@ -152,7 +153,7 @@ template <class S>
                                crf(axis, sums.f)),
                      F_qd = six(twice_B(sums, added, axis) + I(m.sS.motion(k)));
         const auto column = [&](const DofRange& of) {
-          S *const by_q = &m.dtau[k], *const by_qd = by_q + nv;
+          S *const by_q = &dtau[k], *const by_qd = by_q + nv;
 #pragma GCC ivdep
           for (std::size_t j = of.first; j < of.end; ++j) {
             by_q[2 * nv * j] = dot(F_q, axes, j);

@@ -35,6 +35,18 @@ class ClosedForm(ProgramTest):
             height = -0.75 * np.cos(q[0]) - 0.25 * np.cos(q.sum())
             self.assertAlmostEqual(V, self.g * height, places=12)
 
+    def test_derivatives_of_the_double_pendulum_are_those_of_the_textbook(self):
+        model, s = twinarm.load(DOUBLE_PENDULUM), 1e-5
+        for q, qd, tau in zip(*states(model, 20)):
+            def qdd(q, qd, tau):
+                return np.linalg.solve(self.mass_matrix(q), tau - self.bias(q, qd))
+            found = twinarm.aba_derivatives(model, q, qd, tau)
+            for k, e in enumerate(s * np.eye(2)):
+                columns = [(qdd(q + e, qd, tau) - qdd(q - e, qd, tau)), (qdd(q, qd + e, tau) - qdd(q, qd - e, tau)),
+                           (qdd(q, qd, tau + e) - qdd(q, qd, tau - e))]
+                for matrix, column in zip(found, columns):
+                    np.testing.assert_allclose(matrix[:, k], column / (2 * s), atol=1e-6 * np.abs(matrix).max())
+
     def test_gravity_can_be_taken_away(self):
         model = twinarm.load(DOUBLE_PENDULUM)
         model.gravity = [0, 0, 0]
@@ -68,11 +80,15 @@ class EveryJoint(ProgramTest):
     def test_many_rows_in_one_call_have_the_bits_of_as_many_calls(self):
         for function, arguments in ((twinarm.aba, (self.q, self.qd, self.third)),
                                     (twinarm.rnea, (self.q, self.qd, self.third)),
-                                    (twinarm.crba, (self.q,)), (twinarm.minv, (self.q,))):
+                                    (twinarm.crba, (self.q,)), (twinarm.minv, (self.q,)),
+                                    (twinarm.aba_derivatives, (self.q, self.qd, self.third))):
             together = function(self.model, *arguments)
             for n in range(len(self.q)):
                 one = function(self.model, *(a[n] for a in arguments))
-                np.testing.assert_array_equal(together[n], one)
+                if isinstance(one, tuple):
+                    np.testing.assert_array_equal([matrix[n] for matrix in together], one)
+                else:
+                    np.testing.assert_array_equal(together[n], one)
 
     def test_one_vector_goes_with_all_rows_and_out_is_filled_and_given_back(self):
         out = np.empty((12, self.model.nv))

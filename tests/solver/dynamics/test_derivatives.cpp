@@ -141,12 +141,13 @@ TEST_CASE("derivatives of qdd equal those of dual numbers to 5 eps cond(M), at e
       for (const Isa isa : levels_of<double>()) {
         Workspace<double> w(model);
         MatrixWorkspace<double> m(model);
+        AbaDerivatives<double> all(model);
         passes<double>(isa).aba(model, x, forces, w);
-        passes<double>(isa).aba_derivatives(model, x, forces, w, m);
+        passes<double>(isa).aba_derivatives(model, x, forces, w, m, all);
         const auto nv = static_cast<Eigen::Index>(model.nv);
-        const Eigen::MatrixXd both = lane_of(m.dqdd, 0).reshaped(2 * nv, nv).transpose();
-        const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(square_of(m.Minv, model.nv, 0));
-        const Eigen::MatrixXd dtau = lane_of(m.dtau, 0).reshaped(2 * nv, nv).transpose();
+        const Eigen::MatrixXd both = lane_of(all.dqdd, 0).reshaped(2 * nv, nv).transpose();
+        const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(square_of(all.Minv, model.nv, 0));
+        const Eigen::MatrixXd dtau = lane_of(all.dtau, 0).reshaped(2 * nv, nv).transpose();
         const double largest = eigenvalues.maxCoeff(),
                      rounding = std::numeric_limits<double>::epsilon() * largest * largest /
                                 eigenvalues.minCoeff();
