@@ -11,11 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::pair<Algorithm, const char*> algorithms[] = {{Algorithm::forward_dynamics, "fd"},
-                                                            {Algorithm::inverse_dynamics, "id"},
-                                                            {Algorithm::mass_matrix, "crba"},
-                                                            {Algorithm::kinematics, "fk"},
-                                                            {Algorithm::step, "step"}};
+constexpr std::pair<Algorithm, const char*> algorithms[] = {
+    {Algorithm::forward_dynamics, "fd"}, {Algorithm::inverse_dynamics, "id"},
+    {Algorithm::mass_matrix, "crba"},    {Algorithm::kinematics, "fk"},
+    {Algorithm::step, "step"},           {Algorithm::inverse_mass_matrix, "minv"},
+    {Algorithm::derivatives, "dfd"}};
 
 struct Options {
   Names models = {"scara3", "puma6", "chain7", "chain32", "chain128", "humanoid30"};
@@ -170,7 +170,7 @@ int main(int argc, char** argv) {
   const Names engines = names_of(engines_of_build(is_timed));
   add_names(program, "--engines", o.engines, "default: all of this build", engines);
   add_names(program, "--algorithms", o.algorithms, "default: all",
-            Names{"fd", "id", "crba", "fk", "step"});
+            Names{"fd", "id", "crba", "fk", "step", "minv", "dfd"});
   program.add_flag_callback(
       "--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }, "3 repetitions of 0.003 s");
   add_positive(program, "--repetitions", o.repetitions,

@@ -61,7 +61,8 @@ class Bullet final : public PeerEngine<BulletState> {
   }
 
   bool has(Algorithm algorithm) const override {
-    return algorithm != Algorithm::inverse_dynamics && algorithm != Algorithm::mass_matrix;
+    return PeerEngine::has(algorithm) && algorithm != Algorithm::inverse_dynamics &&
+           algorithm != Algorithm::mass_matrix;
   }
   void load_mechanism(const Scene& mechanism) override {
     scene_ = mechanism;

@@ -225,8 +225,7 @@ class Dart final : public PeerEngine<DartState> {
         skeleton_->setAccelerations(state.qdd);
         skeleton_->computeInverseDynamics();
         return;
-      case Algorithm::forward_dynamics:
-      case Algorithm::step:
+      default:  // forward dynamics, step
         skeleton_->setVelocities(state.v);
         skeleton_->setForces(state.tau);
         skeleton_->computeForwardDynamics();

@@ -31,7 +31,9 @@ enum class Algorithm {
   inverse_dynamics,  // tau of q, v, qdd
   mass_matrix,       // of q, by the composite-rigid-body algorithm or the engine's equivalent
   kinematics,        // of q: poses of all bodies
-  step               // one semi-implicit step of 1 ms, without contact
+  step,              // one semi-implicit step of 1 ms, without contact
+  inverse_mass_matrix,
+  derivatives  // of forward dynamics by q, v and tau
 };
 inline constexpr double step_length = 1e-3;  // [s]
 
@@ -106,7 +108,7 @@ class FixedStepEngine : public Engine {
 template <class Converted>
 class PeerEngine : public FixedStepEngine {
  public:
-  bool has(Algorithm) const override { return true; }
+  bool has(Algorithm algorithm) const override { return algorithm <= Algorithm::step; }
   void set_situations(const std::vector<Situation>& situations) override {
     situations_ = situations, converted_.clear();
     for (const Situation& s : situations) converted_.push_back(convert(s));

@@ -121,10 +121,14 @@ class MuJoCo final : public PeerEngine<Situation> {
         [](const Body& b) { return b.inertia[3] == 0 && b.inertia[4] == 0 && b.inertia[5] == 0; });
     return diagonal ? 1e-9 : 1e-6;
   }
+  bool has(Algorithm) const override { return true; }
   // Bodies are in depth-first order, as in all the mechanisms.
   void load_mechanism(const Scene& mechanism) override {
     scene_ = mechanism;
     run_ = MujocoRun(Mjcf(mechanism, "Euler", step_length).files);
+    const auto nv = static_cast<std::size_t>(run_.model->nv);
+    identity_.assign(nv * nv, 0), inverse_.resize(nv * nv), rates_.resize(6 * nv * nv);
+    for (std::size_t k = 0; k < nv; ++k) identity_[k * (nv + 1)] = 1;
   }
   std::vector<double> qdd(std::size_t k) override {
     run_one(Algorithm::forward_dynamics, converted_[k]);
@@ -188,6 +192,16 @@ class MuJoCo final : public PeerEngine<Situation> {
         std::copy(s.tau.begin(), s.tau.end(), d->qfrc_applied);
         mj_step(m, d);
         break;
+      case Algorithm::inverse_mass_matrix:
+        position(m, d);
+        mj_crb(m, d);
+        mj_factorM(m, d);
+        mj_solveM(m, d, inverse_.data(), identity_.data(), m->nv);
+        break;
+      case Algorithm::derivatives:  // of a step, by forward differences
+        std::copy(s.tau.begin(), s.tau.end(), d->qfrc_applied);
+        mjd_transitionFD(m, d, 1e-6, 0, rates_.data(), nullptr, nullptr, nullptr);
+        break;
     }
   }
   static void position(const mjModel* m, mjData* d) {
@@ -196,6 +210,7 @@ class MuJoCo final : public PeerEngine<Situation> {
   }
 
   MujocoRun run_;
+  std::vector<mjtNum> identity_, inverse_, rates_;
 };
 
 }  // namespace

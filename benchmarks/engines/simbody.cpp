@@ -203,8 +203,7 @@ class Simbody final : public PeerEngine<SimbodyState> {
         run_->matter.calcResidualForceIgnoringConstraints(
             state_, no_forces_, run_->gravity.getBodyForces(state_), s.udot, residual_);
         return;
-      case Algorithm::forward_dynamics:
-      case Algorithm::step:
+      default:  // forward dynamics, step
         state_.updU() = s.u;
         run_->applied.setAllMobilityForces(state_, s.tau);
         system.realize(state_, Stage::Acceleration);

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "benchmarks/engines/twinarm_sources.h"
-#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/derivatives.h"
 #include "solver/model/convert_model.h"
 
 namespace twinarm::bench {
@@ -16,11 +16,14 @@ class TwinarmPasses : public FixedStepEngine {
   TwinarmPasses(std::string name, Isa isa) : name_(std::move(name)), passes_(passes<S>(isa)) {}
 
   std::string name() const override { return name_; }
-  bool has(Algorithm) const override { return true; }
+  bool has(Algorithm algorithm) const override {
+    return algorithm <= Algorithm::step || std::is_same_v<S, double>;
+  }
   void load_mechanism(const Scene& mechanism) override {
     model_ = convert<S>(model_of(mechanism));
     w_.emplace(model_);
     M_.resize(model_.nv * model_.nv);
+    if constexpr (std::is_same_v<S, double>) matrices_.emplace(model_), rates_.emplace(model_);
   }
   void set_situations(const std::vector<Situation>& situations) override {
     const std::size_t count = (situations.size() + lanes - 1) / lanes;
@@ -79,7 +82,18 @@ class TwinarmPasses : public FixedStepEngine {
         return;
       case Algorithm::step:
         step_from(call);
+        return;
+      case Algorithm::inverse_mass_matrix:
+      case Algorithm::derivatives:
+        if constexpr (std::is_same_v<S, double>) run_matrix_pass(algorithm, call);
     }
+  }
+  void run_matrix_pass(Algorithm algorithm, const Call& call) {
+    passes_.aba(model_, call.x, call.forces, *w_);
+    if (algorithm == Algorithm::derivatives)
+      passes_.aba_derivatives(model_, call.x, call.forces, *w_, *matrices_, *rates_);
+    else
+      passes_.minv_matrix(model_, *w_, *matrices_, M_);
   }
   void step_from(const Call& call) {
     passes_.aba(model_, call.x, call.forces, *w_);
@@ -101,6 +115,8 @@ class TwinarmPasses : public FixedStepEngine {
   Model<S> model_;
   std::optional<Workspace<S>> w_;
   std::vector<S> M_;
+  std::optional<MatrixWorkspace<S>> matrices_;  // of double only
+  std::optional<AbaDerivatives<S>> rates_;
   std::vector<Call> calls_;
   State<S> next_;
   std::vector<S> shift_;
