@@ -2,8 +2,8 @@
 //
 //   A = ( W               1            )      B = ( 0    )
 //       ( dqdd/dq         dqdd/dqd     )          ( M^-1 )
-// The passes are differentiated by dual numbers (solver/dynamics/derivatives.h) with applied forces
-// constant in body axes. The derivatives of the applied forces are central differences (Richardson
+// The passes are differentiated by solver/dynamics/derivatives.h, with applied forces constant in
+// body axes. The derivatives of the applied forces are central differences (Richardson
 // extrapolation to order 6), multiplied by M^-1 in O(n) per direction. dq = log(q_0^-1 q) on the
 // configuration group, so W = -[w]x for spherical and free joints. Mimic joints are eliminated.
 #pragma once

@@ -198,7 +198,7 @@ PyMethodDef methods[] = {
      "or\n"
      "acceleration k. dqdd_dq is along the velocities of the joints (the angular velocity of a "
      "ball\n"
-     "joint, not its quaternion). dqdd_dtau is the inverse of the mass matrix."},
+     "joint, not its quaternion) [1/s^2]; dqdd_dqd [1/s]; dqdd_dtau is M^-1 [1/(kg m^2), 1/kg]."},
     {"rnea", as_method(call_rnea), kFast,
      "rnea(model, q, qd, qdd, f_ext=None, out=None)\n--\n\n"
      "Inverse dynamics by the recursive Newton-Euler algorithm, RBDA table 5.1, in O(n).\n\n"

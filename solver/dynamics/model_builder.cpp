@@ -140,16 +140,16 @@ void complete_tree(ModelTree& tree) {
   const std::size_t n = tree.parent.size();
   tree.last_child.assign(n, 0);
   tree.chain_first.assign(n, 0);
-  std::vector<std::size_t> above(n);  // degrees of freedom of joint i and its ancestors
+  std::vector<std::size_t> depth(n);
   std::size_t pairs = 0;
   for (std::size_t i = 1; i < n; ++i) {
     const auto p = static_cast<std::size_t>(tree.parent[i]);
     tree.last_child[p] = static_cast<int>(i);
     tree.chain_first[i] = p > 0 && p + 1 == i ? tree.chain_first[p] : i;
-    above[i] = above[p] + tree.dofs(i);
-    pairs += above[i] * tree.dofs(i);
+    depth[i] = depth[p] + 1;
+    pairs += depth[i] * tree.dofs(i);
   }
-  constexpr std::size_t kDeep = 7;  // mean of above: measured, scripts/bench
+  constexpr std::size_t kDeep = 7;  // mean depth from which common axes are faster: measured
   tree.is_deep = pairs > kDeep * tree.nv;
 }
 
