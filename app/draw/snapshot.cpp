@@ -11,11 +11,9 @@ namespace {
 
 // One operator motion moves the gripper of at most one of them.
 bool is_same_target(const SceneCoupling& a, const SceneCoupling& b) {
-  const bool same_motion = a.robot == b.robot && a.target == b.target && a.trace == b.trace &&
-                           a.rest.q == b.rest.q && a.delay == b.delay && a.speed == b.speed &&
-                           a.seed == b.seed;
-  return same_motion && (a.driven.gripper.empty() || b.driven.gripper.empty() ||
-                         a.driven.gripper == b.driven.gripper);
+  return a.has_motion_of(b) && a.rest.q == b.rest.q &&
+         (a.driven.gripper.empty() || b.driven.gripper.empty() ||
+          a.driven.gripper == b.driven.gripper);
 }
 
 // One coupling for each target robot that is drawn: of several with the same target the one that

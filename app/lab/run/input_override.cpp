@@ -12,12 +12,6 @@ int rank_of_target(const SceneCoupling& coupling) {
   return coupling.driven.turned.empty() ? 0 : 1;
 }
 
-bool has_same_motion(const SceneCoupling& a, const SceneCoupling& b) {
-  return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.seed == b.seed &&
-         a.duration == b.duration && a.delay == b.delay && a.speed == b.speed &&
-         a.driven.turned == b.driven.turned;
-}
-
 }  // namespace
 
 InputOverride::InputOverride(SceneModel* scene, OperatorInput& input, double h)
@@ -41,7 +35,8 @@ void InputOverride::select_couplings() {
   }
   if (best->driven.turned.empty()) return;
   for (std::size_t c = 0; c < all.size(); ++c)
-    if (has_same_motion(all[c], *best)) coupled_.push_back(c);
+    if (all[c].has_motion_of(*best) && all[c].driven.turned == best->driven.turned)
+      coupled_.push_back(c);
   driven_ = driven_bodies(*scene_, best->driven);
   target_.q.assign(driven_.size(), 0);
   target_.qd.assign(driven_.size(), 0);

@@ -48,9 +48,8 @@ JointStops::Stop stop_of(const SceneCoupling& spec) {
 
 // Couplings with the same motion share a target robot, to compute its kinematics once.
 bool share_target(const SceneCoupling& a, const SceneCoupling& b) {
-  return a.target == b.target && a.trace == b.trace && a.seed == b.seed &&
-         a.duration == b.duration && a.delay == b.delay && a.speed == b.speed &&
-         a.driven == b.driven && a.absolute_damper == b.absolute_damper && a.rest.q == b.rest.q;
+  return a.has_motion_of(b) && a.driven == b.driven && a.absolute_damper == b.absolute_damper &&
+         a.rest.q == b.rest.q;
 }
 
 }  // namespace

@@ -216,6 +216,12 @@ void build_couplings(SceneModel& scene) {
   faults.check();
 }
 
+bool SceneCoupling::has_motion_of(const SceneCoupling& other) const {
+  return robot == other.robot && target == other.target && trace == other.trace &&
+         seed == other.seed && ranges == other.ranges && duration == other.duration &&
+         delay == other.delay && speed == other.speed;
+}
+
 bool SceneCoupling::needs_semi_implicit() const {
   return discretization != Discretization::explicit_ || law == CouplingSpec::Type::weld ||
          facts_of(law, printed).discretizations == CouplingFacts::Discretizations::own;

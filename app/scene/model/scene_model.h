@@ -54,6 +54,8 @@ struct SceneCoupling : CouplingTraits {
   double duration = 20;  // of a synthetic operator [s]
   SyntheticRanges ranges;
 
+  // Its operator motion is that of `other`, of the same robot.
+  bool has_motion_of(const SceneCoupling& other) const;
   bool is_first_component() const { return !springs.empty(); }
   // Index of this component, number `index`, in Coupling::readings().
   std::size_t reading(std::size_t index) const { return index - first_component; }

@@ -134,6 +134,22 @@ TEST_CASE("scene: targets are a state, the paper's motion, a trace") {
   CHECK(q(couplings.target(2, 0.5).x, "joint2") == doctest::Approx(0.4));
 }
 
+TEST_CASE("scene: synthetic operators that differ in the range of speeds alone move apart") {
+  const auto pull = [](const std::string& range) {
+    return "[[coupling]]\ntype = 'torsional'\nmeasure = 'joint'\nlink = 'arm1'\nstiffness = 10\n"
+           "target = { seed = 1, peak_speed = " +
+           range + " }\n";
+  };
+  SceneModel scene =
+      built("[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n" +
+            pull("[1, 1.1]") + pull("[3, 3.1]") + pull("[1, 1.1]"));
+  SceneCouplings couplings(scene, 0.001);
+  const auto q = [&](std::size_t c) { return couplings.target(c, 0.5).x.q; };
+  const std::vector<double> slow = q(0), fast = q(1);
+  CHECK(slow != fast);
+  CHECK(q(2) == slow);
+}
+
 TEST_CASE("scene: a target with delay and speed is the motion at speed (t - delay)") {
   const double delay = 0.12345, speed = 1.7;  // no number of steps of 1 ms
   SceneModel scene = built(
