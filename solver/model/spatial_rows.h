@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/model/model.h"
+#include "solver/spatial/instruction_set.h"
 
 namespace twinarm {
 
@@ -52,7 +53,7 @@ S dot(Six<S> a, std::array<S*, 6> rows, std::size_t k) {
 // rows += a factors^T
 template <class S>
 void add_outer(Six<S> a, const S* factors, DofRange of, std::array<S*, 6> rows) {
-#pragma GCC ivdep
+  TWINARM_INDEPENDENT
   for (std::size_t k = of.first; k < of.end; ++k) {
     const S factor = factors[k];
     for (std::size_t c = 0; c < 6; ++c) rows[c][k] = rows[c][k] + a[c] * factor;

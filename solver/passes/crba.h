@@ -90,7 +90,7 @@ template <class S>
       const Six<S> F = six(w.Ic[i] * w.axes.motion(k));
       S* const row = M.data() + k * nv;
       const auto products = [&](const DofRange& of) {
-#pragma GCC ivdep
+        TWINARM_INDEPENDENT
         for (std::size_t j = of.first; j < of.end; ++j) row[j] = dot(F, axes, j);
       };
       products({own.first, k + 1});

@@ -21,7 +21,7 @@ void multiply(const std::vector<S>& A, const std::vector<S>& B, std::size_t n, s
               a3 = A[i * n + k + 3];
       const S *const b0 = &B[k * m], *const b1 = b0 + m, *const b2 = b1 + m, *const b3 = b2 + m;
       S* const c = &C[i * m];
-#pragma GCC ivdep
+      TWINARM_INDEPENDENT
       for (std::size_t j = 0; j < m; ++j)
         c[j] = c[j] + (a0 * b0[j] + a1 * b1[j] + (a2 * b2[j] + a3 * b3[j]));
     }
@@ -30,7 +30,7 @@ void multiply(const std::vector<S>& A, const std::vector<S>& B, std::size_t n, s
       const S a = A[i * n + k];
       const S* const b = &B[k * m];
       S* const c = &C[i * m];
-#pragma GCC ivdep
+      TWINARM_INDEPENDENT
       for (std::size_t j = 0; j < m; ++j) c[j] = c[j] + a * b[j];
     }
 }

@@ -67,7 +67,7 @@ template <class S>
       for (const DofRange& below : m.below[i]) {
         S* const row = &Minv[r * nv];
         const Six<S> DinvS = m.DinvS[r];
-#pragma GCC ivdep
+        TWINARM_INDEPENDENT
         for (std::size_t j = below.first; j < below.end; ++j) row[j] = -dot(DinvS, F, j);
       }
     if (model.parent[i] == 0) continue;
@@ -86,7 +86,7 @@ template <class S>
       for (std::size_t r = first; r < end; ++r) {
         S* const row = &Minv[r * nv];
         const Six<S> DinvU = m.DinvU[r];
-#pragma GCC ivdep
+        TWINARM_INDEPENDENT
         for (std::size_t j = first; j < nv; ++j) row[j] = row[j] - dot(DinvU, P, j);
       }
     }

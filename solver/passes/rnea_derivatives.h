@@ -143,7 +143,7 @@ template <class S>
         const Six<S> I_axis = six(I(axis)), B_axis = six(twice_B_transposed(sums, added, axis));
         const auto row = [&](const DofRange& of) {
           S *const by_q = &dtau[2 * nv * k], *const by_qd = by_q + nv;
-#pragma GCC ivdep
+          TWINARM_INDEPENDENT
           for (std::size_t j = of.first; j < of.end; ++j) {
             by_q[j] = dot(I_axis, ddS, j) + dot(B_axis, dS, j);
             by_qd[j] = dot(I_axis, sS, j) + dot(B_axis, axes, j);
@@ -154,7 +154,7 @@ template <class S>
                      F_qd = six(twice_B(sums, added, axis) + I(m.sS.motion(k)));
         const auto column = [&](const DofRange& of) {
           S *const by_q = &dtau[k], *const by_qd = by_q + nv;
-#pragma GCC ivdep
+          TWINARM_INDEPENDENT
           for (std::size_t j = of.first; j < of.end; ++j) {
             by_q[2 * nv * j] = dot(F_q, axes, j);
             by_qd[2 * nv * j] = dot(F_qd, axes, j);

@@ -10,3 +10,11 @@
 // Body of a visit_joint() call: one function per joint type with everything inlined into it. g++ 12
 // allocates registers well in functions of this size, and poorly in one that holds all types.
 #define TWINARM_KERNEL __attribute__((flatten, noinline))
+
+// Before a loop over numbers whose results are none of its inputs: g++ then uses vector registers
+// without checking that.
+#ifdef __clang__
+#define TWINARM_INDEPENDENT
+#else
+#define TWINARM_INDEPENDENT _Pragma("GCC ivdep")
+#endif
