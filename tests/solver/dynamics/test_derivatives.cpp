@@ -106,7 +106,10 @@ TEST_CASE("derivatives of qdd by q and qd agree with finite differences, for eve
   double by_q = 0, by_qd = 0;
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 8; ++n) {
-      const auto& [model, x, forces] = Example(random, n, types);
+      const Example example(random, n, types);
+      const auto& model = example.model;
+      const auto& x = example.x;
+      const auto& forces = example.forces;
       const ForwardDynamicsDerivatives d = forward_dynamics_derivatives(model, x, forces);
       REQUIRE(d.dq.rows() == static_cast<Eigen::Index>(model.nv));
       for (std::size_t k = 0; k < model.nv; ++k) {
@@ -135,7 +138,10 @@ TEST_CASE("derivatives of qdd equal those of dual numbers to 5 eps cond(M), at e
   double worst = 0;
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 20; ++n) {
-      const auto& [model, x, forces] = Example(random, n, types);
+      const Example example(random, n, types);
+      const auto& model = example.model;
+      const auto& x = example.x;
+      const auto& forces = example.forces;
       if (model.nv == 0) continue;
       const ForwardDynamicsDerivatives duals = derivatives_by_duals(model, x, forces);
       for (const Isa isa : levels_of<double>()) {
