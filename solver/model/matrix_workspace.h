@@ -1,5 +1,5 @@
 // Variables of the algorithms whose results are matrices: derivatives and inverse mass matrix.
-// Allocated once. World axes, about the world's origin.
+// Allocated once. In the common axes of Workspace::Xr.
 #pragma once
 
 #include <algorithm>

@@ -64,7 +64,7 @@ struct ModelTree {
                                 // from its last child's contribution without a copy
   std::vector<std::size_t> chain_first;  // of a body: the first of those before it in a row, each
                                          // the parent of the next
-  bool is_deep = false;                  // mass matrix in world axes (solver/passes/crba.h)
+  bool is_deep = false;                  // mass matrix in common axes (solver/passes/crba.h)
   std::vector<JointType> joint;
   std::vector<std::size_t> iq, iv, ip;  // first index of joint i in q, qd and State::prescribed
   std::size_t nq = 0, nv = 0, np = 0;

@@ -1,5 +1,5 @@
-// Spatial vectors of all velocities in world axes, about the world's origin, as six rows of
-// numbers: loops over the velocities of a chain then use whole vector registers.
+// Spatial vectors of all velocities in the common axes of Workspace::Xr, as six rows of numbers:
+// loops over the velocities of a chain then use whole vector registers.
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ class SpatialRows {
   std::array<std::vector<S>, 6> rows_;
 };
 
-// a . (column k of the rows): power of a force along motion k, or of force k along a motion. Values
-// and restricted pointers: the compiler cannot know that a result is none of the inputs.
+// a . (column k of the rows): power of a force along motion k, or of force k along a motion. By
+// value: the compiler need not reload them after each result that it writes.
 template <class S>
 S dot(Six<S> a, std::array<S*, 6> rows, std::size_t k) {
   return a[0] * rows[0][k] + a[1] * rows[1][k] + a[2] * rows[2][k] + a[3] * rows[3][k] +
@@ -70,9 +70,9 @@ void visit_ancestors(const Model<S>& model, std::size_t i, F&& visit) {
   }
 }
 
-// X^-1 m
+// X^-1 m: from the axes of a body, X its Workspace::Xr, to the common axes.
 template <class S>
-Motion<S> to_world_axes(const Transform<S>& X, const Motion<S>& m) {
+Motion<S> to_common_axes(const Transform<S>& X, const Motion<S>& m) {
   const Vec3<S> w = transpose_times(X.E, m.w);
   return {w, plus_cross(transpose_times(X.E, m.v), X.r, w)};
 }

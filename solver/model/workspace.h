@@ -111,7 +111,7 @@ struct Workspace : BodyVelocities<S> {
   std::vector<S> tau;       // by velocity
   // mass matrix
   std::vector<Inertia<S>> Ic;  // composite inertia of the subtree
-  // matrices (crba_in_world_axes, minv_matrix, derivatives): from axes that all bodies of a tree
+  // matrices (crba_in_common_axes, minv_matrix, derivatives): from axes that all bodies of a tree
   // share, parallel to those of the world, with the origin of the body that is next to the base;
   // far from the world's origin moments about it would lose digits
   std::vector<Transform<S>> Xr;

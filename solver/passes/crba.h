@@ -4,6 +4,10 @@
 //   Ic_p += X_i^T Ic_i X_i,   F = Ic_i S_i,   M_ii = S_i^T F + armature,
 //   M_ji = M_ij^T = S_j^T F for each ancestor j of i, F transformed from body to parent on the way
 //
+// Two forms of one result. crba_in_body_axes, as above; crba_in_common_axes for deep trees
+// (ModelTree::is_deep): in the axes that all bodies of a tree share (Workspace::Xr), I^c are sums
+// without transforms, F stays as it is, and a row of M is F^T times the S of all ancestors.
+//
 // Writes M, nv x nv, row-major, both triangles [kg m^2, kg m, kg]. Cost O(n d), d the depth of the
 // tree. Interface: solver/dynamics/dynamics.h.
 #pragma once
@@ -65,11 +69,11 @@ template <class S>
 }
 
 template <class S>
-[[gnu::flatten]] void crba_in_world_axes(const Model<S>& model, const State<S>& x, Workspace<S>& w,
-                                         std::span<S> M) {
+[[gnu::flatten]] void crba_in_common_axes(const Model<S>& model, const State<S>& x, Workspace<S>& w,
+                                          std::span<S> M) {
   const std::size_t n_bodies = model.parent.size(), nv = model.nv;
 
-  // base to tips: transforms, and motion subspaces and inertias in world axes
+  // base to tips: transforms, and motion subspaces and inertias in common axes
   for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const S* q = x.q.data() + model.iq[i];
@@ -79,7 +83,7 @@ template <class S>
       add_congruence(X, model.I[i], w.Ic[i]);
       store_subspace(joint.subspace(q), w.S_.data() + model.iv[i]);
       for (std::size_t k = model.iv[i]; k < model.iv[i] + joint.nv; ++k)
-        w.axes.set(k, six(to_world_axes(X, w.S_[k])));
+        w.axes.set(k, six(to_common_axes(X, w.S_[k])));
     });
 
   // tips to base: composite inertias and the rows of M

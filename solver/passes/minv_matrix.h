@@ -34,7 +34,7 @@ void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorksp
       std::array<Motion<S>, joint.nv> axes;
       std::array<Force<S>, joint.nv> U;
       for (std::size_t k = 0; k < joint.nv; ++k) {
-        m.S_[iv + k] = six(axes[k] = to_world_axes(X, w.S_[iv + k]));
+        m.S_[iv + k] = six(axes[k] = to_common_axes(X, w.S_[iv + k]));
         m.U[iv + k] = six(U[k] = transpose_times(X, w.U[iv + k]));
       }
       const auto factors = slice_spd<joint.nv>(w.D_factors, w.iD[i]);

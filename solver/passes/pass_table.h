@@ -28,13 +28,13 @@ struct Passes : MatrixPasses<S> {
   void (*rnea)(const Model<S>&, const State<S>&, const std::vector<S>&,
                const std::vector<Force<S>>&, Workspace<S>&);
   using MassMatrix = void(const Model<S>&, const State<S>&, Workspace<S>&, std::span<S>);
-  MassMatrix *crba_in_body_axes, *crba_in_world_axes;
+  MassMatrix *crba_in_body_axes, *crba_in_common_axes;
   void (*minv_times)(const Model<S>&, const std::vector<S>&, const std::vector<Force<S>>&,
                      Workspace<S>&);
   void (*kinematics)(const Model<S>&, const State<S>&, Workspace<S>&);
 
   void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w, std::span<S> M) const {
-    (model.is_deep ? crba_in_world_axes : crba_in_body_axes)(model, x, w, M);
+    (model.is_deep ? crba_in_common_axes : crba_in_body_axes)(model, x, w, M);
   }
 };
 

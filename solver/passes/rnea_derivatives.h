@@ -80,12 +80,12 @@ void motions(const Model<S>& model, const State<S>& x, const Forces<S>& forces,
       };
       if constexpr (requires { joint.np; }) {
         const S* given = x.rates(joint, model, i);
-        move(to_world_axes(X, joint.vJ(given)), to_world_axes(X, joint.cJ(nullptr, given)));
+        move(to_common_axes(X, joint.vJ(given)), to_common_axes(X, joint.cJ(nullptr, given)));
       }
       for (const DofRange& group : series_of(joint)) {
         Motion<S> vJ, aJ;
         for (std::size_t k = iv + group.first; k < iv + group.end; ++k) {
-          const Motion<S> axis = to_world_axes(X, w.S_[k]), rate = crm(v, axis);
+          const Motion<S> axis = to_common_axes(X, w.S_[k]), rate = crm(v, axis);
           m.axes.set(k, six(axis));
           m.dS.set(k, six(rate));
           m.ddS.set(k, six(crm(a, axis) + crm(v, rate)));

@@ -28,7 +28,7 @@ const Passes<TWINARM_SCALAR>& table() {
                     Workspace<S>& w) { aba(model, x, forces, w, NoTrace{}); };
     passes.rnea = &rnea<S>;
     passes.crba_in_body_axes = &crba_in_body_axes<S>;
-    passes.crba_in_world_axes = &crba_in_world_axes<S>;
+    passes.crba_in_common_axes = &crba_in_common_axes<S>;
     passes.minv_times = &minv_times<S>;
     passes.kinematics = &kinematics<S, Workspace<S>>;
     return passes;

@@ -27,7 +27,7 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
       CHECK(allocations_in([&] { pass.aba(p.model_S, p.x_S, p.forces_S, w); }) == 0);
       CHECK(allocations_in([&] { pass.rnea(p.model_S, p.x_S, w.qdd, p.forces_S.f_ext, w); }) == 0);
       CHECK(allocations_in([&] { pass.crba_in_body_axes(p.model_S, p.x_S, w, M); }) == 0);
-      CHECK(allocations_in([&] { pass.crba_in_world_axes(p.model_S, p.x_S, w, M); }) == 0);
+      CHECK(allocations_in([&] { pass.crba_in_common_axes(p.model_S, p.x_S, w, M); }) == 0);
       CHECK(allocations_in([&] { pass.minv_times(p.model_S, zero, wrench, w); }) == 0);
       CHECK(allocations_in([&] { pass.kinematics(p.model_S, p.x_S, w); }) == 0);
     }

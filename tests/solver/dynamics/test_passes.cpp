@@ -184,14 +184,14 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
         pass.aba(p.model, p.x[0], Forces<double>(p.model), w);
         std::vector<double> inverse_M(nv * nv);
         pass.minv_matrix(p.model, w, m, inverse_M);
-        std::vector<double> in_body_axes(nv * nv), in_world_axes(nv * nv);
+        std::vector<double> in_body_axes(nv * nv), in_common_axes(nv * nv);
         pass.crba_in_body_axes(p.model, p.x[0], w, in_body_axes);
-        pass.crba_in_world_axes(p.model, p.x[0], w, in_world_axes);
+        pass.crba_in_common_axes(p.model, p.x[0], w, in_common_axes);
         const MatrixXd M = square_of(in_body_axes, nv, 0), Minv = square_of(inverse_M, nv, 0);
         const auto size = static_cast<Eigen::Index>(nv);
         inverse = std::max(
             inverse, (M * Minv - MatrixXd::Identity(size, size)).norm() / (M.norm() * Minv.norm()));
-        forms = std::max(forms, (M - square_of(in_world_axes, nv, 0)).norm() / M.norm());
+        forms = std::max(forms, (M - square_of(in_common_axes, nv, 0)).norm() / M.norm());
         CHECK(Minv == Minv.transpose());
       }
     }
