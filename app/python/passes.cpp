@@ -165,10 +165,7 @@ PyObject* call_crba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
 PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
   return call_by_q("minv", given, count, keywords, [](Robot& robot, double* M_inverse) {
     const std::size_t nv = robot.model.nv;
-    std::ranges::fill(robot.x.qd, 0.0);
-    const Forces<double> none(robot.model);
-    aba(robot.model, robot.x, none, robot.w);  // the factors of minv_matrix()
-    minv_matrix(robot.model, robot.w, matrices_of(robot), {M_inverse, nv * nv});
+    minv_matrix(robot.model, robot.x, robot.w, matrices_of(robot), {M_inverse, nv * nv});
   });
 }
 

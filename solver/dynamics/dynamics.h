@@ -52,11 +52,10 @@ void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
 }
 // The same as an Eigen matrix. Allocates.
 Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x);
-// Inverse mass matrix, solver/passes/minv_matrix.h: Minv, nv x nv, row-major, after aba() at the
-// same q.
-inline void minv_matrix(const Model<double>& model, Workspace<double>& w,
+// Inverse mass matrix, solver/passes/minv_matrix.h: Minv, nv x nv, row-major.
+inline void minv_matrix(const Model<double>& model, const State<double>& x, Workspace<double>& w,
                         MatrixWorkspace<double>& m, std::span<double> Minv) {
-  passes<double>().minv_matrix(model, w, m, Minv);
+  passes<double>().minv_matrix(model, x, w, m, Minv);
 }
 // M^-1 (b + J^T f), solver/passes/minv.h: w.y, after aba() at the same q.
 template <class S>
@@ -64,10 +63,16 @@ void minv_times(const Model<S>& model, const std::vector<S>& b, const std::vecto
                 Workspace<S>& w) {
   passes<S>().minv_times(model, b, f, w);
 }
+// M^-1 b for the four b of r at once: r.y; f = 0.
+inline void minv_times(const Model<double>& model, const Workspace<double>& w,
+                       RightHandSides<Batch<4>>& r) {
+  passes<double>().minv_times_lanes(model, w, r);
+}
 // Forward kinematics, solver/passes/kinematics_pass.h: w.X0, w.v. World axes:
 // solver/dynamics/world_kinematics.h.
 template <class S>
-void kinematics(const Model<S>& model, const State<S>& x, Workspace<S>& w) {
+void kinematics(const Model<S>& model, const State<S>& x,
+                std::type_identity_t<BodyKinematics<S>>& w) {
   passes<S>().kinematics(model, x, w);
 }
 

@@ -30,7 +30,7 @@ struct Kinematics {
   friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
   template <class F>
   friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
-  BodyVelocities<double> in_body_axes_;
+  BodyKinematics<double> in_body_axes_;
   struct Column {
     Vector3 w, v;
   };

@@ -14,8 +14,8 @@ ConstraintForceSolver::ConstraintForceSolver(const Model<double>& model)
       factors_(rows_),
       Z_(rows_ * model.nv),
       lambda_(rows_),
-      b_(model.nv),
-      no_forces_(model.parent.size()) {}
+      no_forces_(model.nv),
+      of_rows_(model) {}
 
 void ConstraintForceSolver::set_loops(LoopClosures loops) {
   loops_ = std::move(loops);
@@ -50,25 +50,25 @@ double ConstraintForceSolver::row_times(std::size_t row, const double* v) const 
   return sum;
 }
 
-void ConstraintForceSolver::prepare(Workspace<double>& w, const std::vector<std::size_t>& held,
+void ConstraintForceSolver::prepare(const Workspace<double>& w,
+                                    const std::vector<std::size_t>& held,
                                     double tolerance) noexcept {
+  constexpr std::size_t kLanes = 4;
   held_.assign(held.begin(), held.end());
   const std::size_t n = rows_ + held_.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    bool empty = true;
-    for_each_entry(j, [&](std::size_t d, double entry) {
-      b_[d] += entry;
-      empty = empty && entry == 0;
-    });
-    double* Z = &Z_[j * model_->nv];
-    if (empty) {
-      std::fill_n(Z, model_->nv, 0.0);
-    } else {
-      minv_times(*model_, b_, no_forces_, w);
-      std::copy(w.y.begin(), w.y.end(), Z);
+  for (std::size_t first = 0; first < n; first += kLanes) {
+    const std::size_t end = std::min(first + kLanes, n);
+    for (std::size_t j = first; j < end; ++j)
+      for_each_entry(j, [&](std::size_t d, double entry) {
+        set_lane(of_rows_.b[d], j - first, of_rows_.b[d][static_cast<int>(j - first)] + entry);
+      });
+    minv_times(*model_, w, of_rows_);
+    for (std::size_t j = first; j < end; ++j) {
+      double* const Z = &Z_[j * model_->nv];
+      for (std::size_t d = 0; d < model_->nv; ++d) Z[d] = lane_of(of_rows_.y[d], j - first);
+      for_each_entry(j, [&](std::size_t d, double) { of_rows_.b[d] = 0; });
+      for (std::size_t i = 0; i <= j; ++i) factors_(i, j) = factors_(j, i) = row_times(i, Z);
     }
-    for_each_entry(j, [&](std::size_t d, double) { b_[d] = 0; });
-    for (std::size_t i = 0; i <= j; ++i) factors_(i, j) = factors_(j, i) = row_times(i, Z);
   }
   factors_.factorise(n, tolerance);
 }

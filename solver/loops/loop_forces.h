@@ -15,6 +15,7 @@
 #include "solver/loops/loop_closure.h"
 #include "solver/model/model.h"
 #include "solver/model/workspace.h"
+#include "solver/spatial/batch.h"
 
 namespace twinarm {
 
@@ -26,9 +27,9 @@ class ConstraintForceSolver {
   const LoopClosures& loops() const { return loops_; }
   LoopClosures& loops() { return loops_; }
 
-  // Factorises G; requires aba() at the same or a nearby q, and loops().evaluate() for A. Writes
-  // w.y, w.p, w.dv. `held`: velocities with zero acceleration, as additional rows.
-  void prepare(Workspace<double>& w, const std::vector<std::size_t>& held = {},
+  // Factorises G; requires aba() at the same or a nearby q, and loops().evaluate() for A.
+  // `held`: velocities with zero acceleration, as additional rows.
+  void prepare(const Workspace<double>& w, const std::vector<std::size_t>& held = {},
                double tolerance = PivotedCholesky::kDependent) noexcept;
   const std::vector<std::size_t>& held() const { return held_; }
   // Copies the result of prepare() of another solver.
@@ -40,7 +41,7 @@ class ConstraintForceSolver {
   void add_forces(std::vector<double>& mimic, std::vector<double>& loop) const;
   // Adds the acceleration of the constraint forces to an acceleration a, or to y = M^-1 b.
   void project_acceleration(std::vector<double>& a) noexcept {
-    solve(a, b_);  // b_ is zero between calls of prepare()
+    solve(a, no_forces_);
     add_accelerations(a);
   }
   void project(std::vector<double>& y) noexcept;
@@ -73,8 +74,9 @@ class ConstraintForceSolver {
   std::vector<std::size_t> held_;
   PivotedCholesky factors_;
   std::vector<double> Z_;  // M^-1 A^T, by row of A
-  std::vector<double> lambda_, b_;
-  std::vector<Force<double>> no_forces_;
+  std::vector<double> lambda_;
+  std::vector<double> no_forces_;     // by velocity
+  RightHandSides<Batch<4>> of_rows_;  // b zero between calls of prepare()
 };
 
 }  // namespace twinarm

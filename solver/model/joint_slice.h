@@ -35,11 +35,11 @@ void store(const Spd<S, n>& part, std::vector<S>& all, std::size_t first) {
   store(part.inverse_d, all, first);
   for (std::size_t k = 0; k < row_of_L(n); ++k) all[first + n + k] = part.L[k];
 }
-template <std::size_t n, class S>
-Spd<S, n> slice_spd(const std::vector<S>& all, std::size_t first) {
-  Spd<S, n> part;
-  part.inverse_d = slice<n>(all, first);
-  for (std::size_t k = 0; k < row_of_L(n); ++k) part.L[k] = all[first + n + k];
+template <std::size_t n, class R, class S>
+Spd<R, n> slice_spd(const std::vector<S>& all, std::size_t first) {
+  Spd<R, n> part;
+  for (std::size_t k = 0; k < n; ++k) part.inverse_d[k] = R(all[first + k]);
+  for (std::size_t k = 0; k < row_of_L(n); ++k) part.L[k] = R(all[first + n + k]);
   return part;
 }
 

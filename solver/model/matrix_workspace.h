@@ -53,6 +53,7 @@ struct MatrixWorkspace {
   SpatialRows<S> F;                         // wrench at the root of the subtree, by column
   std::vector<SpatialRows<S>> P;            // acceleration of a body with children, by column
   std::vector<std::size_t> iP;              // index in P of such a body; last children reuse one
+  std::vector<S> no_armature;               // zeros
   // tree
   std::vector<std::vector<DofRange>> below;  // velocities of the descendants of a body
 
@@ -74,6 +75,7 @@ MatrixWorkspace<S>::MatrixWorkspace(const Model<S>& model)
       DinvU(model.nv),
       F(model.nv),
       iP(v.size()),
+      no_armature(model.nv),
       below(v.size()) {
   for (std::size_t i = 1; i < v.size(); ++i) {
     const auto p = static_cast<std::size_t>(model.parent[i]);

@@ -70,16 +70,24 @@ void poison_with_nan([[maybe_unused]] std::vector<T>&... fields) {
 #endif
 }
 
-// Variables of velocity kinematics: pass 1 of every algorithm.
+// Variables of forward kinematics: pass 1 of every algorithm, and poses.
 template <class S>
-struct BodyVelocities {
+struct BodyKinematics {
+  std::vector<S> sin, cos;        // by coordinate, of double only (solver/spatial/sincos_batch.h)
   std::vector<Motion<S>> S_;      // columns of the motion subspaces, by velocity
   std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
   std::vector<Motion<S>> v;       // spatial velocity [rad/s, m/s]
   std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x S qd
+  std::vector<Transform<S>> X0;   // from the world frame to the body frame, of kinematics() only
 
-  explicit BodyVelocities(const Model<S>& model)
-      : S_(model.nv), Xup(model.parent.size()), v(Xup.size()), c(Xup.size()) {
+  explicit BodyKinematics(const Model<S>& model)
+      : sin(model.nq),
+        cos(model.nq),
+        S_(model.nv),
+        Xup(model.parent.size()),
+        v(Xup.size()),
+        c(Xup.size()),
+        X0(Xup.size()) {
     const State<S> home(model);
     for (std::size_t i = 0; i < Xup.size(); ++i)
       visit_joint(model, i, [&](auto joint) {
@@ -91,11 +99,8 @@ struct BodyVelocities {
 };
 
 template <class S>
-struct Workspace : BodyVelocities<S> {
-  // pass 1 (base to tips) of ABA: BodyVelocities
-  std::vector<S> sin, cos;  // by coordinate, of double only (solver/spatial/sincos_batch.h)
-  // kinematics
-  std::vector<Transform<S>> X0;  // from the world frame to the body frame
+struct Workspace : BodyKinematics<S> {
+  // pass 1 (base to tips) of ABA: BodyKinematics
   // pass 2 (tips to base)
   std::vector<ArticulatedInertia<S>> IA;  // articulated-body inertia
   std::vector<Force<S>> pA;               // articulated-body bias force [N m, N]
@@ -123,7 +128,7 @@ struct Workspace : BodyVelocities<S> {
 
   std::vector<std::size_t> iD;  // first index of D of body i
 
-  explicit Workspace(const Model<S>& model) : BodyVelocities<S>(model), axes(model.nv) {
+  explicit Workspace(const Model<S>& model) : BodyKinematics<S>(model), axes(model.nv) {
     const auto resize = [](std::size_t size, auto&... fields) { (fields.resize(size), ...); };
     const std::size_t n = model.parent.size();
     std::size_t entries = 0;
@@ -131,8 +136,7 @@ struct Workspace : BodyVelocities<S> {
       iD.push_back(entries);
       entries += model.dofs(i) * model.dofs(i);
     }
-    resize(model.nq, sin, cos);
-    resize(n, X0, Xr, IA, pA, a, f, Ic, p, dv);
+    resize(n, Xr, IA, pA, a, f, Ic, p, dv);
     resize(model.nv, U, u, qdd, tau, y);
     resize(entries, D, D_factors);
   }
@@ -172,6 +176,17 @@ struct Workspace : BodyVelocities<S> {
            "a = Xup a_p + c + S qdd, table 7.1"},
           a);
   }
+};
+
+// Several right-hand sides of M^-1 b, one in each lane of R, and the products (minv_times_lanes).
+template <class R>
+struct RightHandSides {
+  std::vector<R> b, y;      // by velocity
+  std::vector<Force<R>> p;  // by body, as in Workspace
+  std::vector<Motion<R>> dv;
+
+  explicit RightHandSides(const ModelTree& model)
+      : b(model.nv, R(0)), y(model.nv), p(model.parent.size()), dv(p.size()) {}
 };
 
 // Computes and returns Xr of body i, from Xup of the body and Xr of its parent.

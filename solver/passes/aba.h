@@ -90,7 +90,7 @@ template <class S, class M, class Trace = NoTrace>
 
       const Motion<S> a = w.Xup[i] * w.a[p] + w.c[i];
       const auto r = slice<joint.nv>(w.u, iv) - transpose_times(slice<joint.nv>(w.U, iv), a);
-      const auto qdd = solve(slice_spd<joint.nv>(w.D_factors, w.iD[i]), r);
+      const auto qdd = solve(slice_spd<joint.nv, S>(w.D_factors, w.iD[i]), r);
       w.a[i] = a + times(S_i, qdd);
       store(qdd, w.qdd, iv);
     });

@@ -13,7 +13,7 @@ template <class S>
                                       const Forces<S>& forces, Workspace<S>& w,
                                       MatrixWorkspace<S>& m, AbaDerivatives<S>& out) {
   rnea_derivatives(model, x, forces, w.qdd, w, m, std::span(out.dtau));
-  minv_matrix(model, w, m, std::span(out.Minv));
+  minv_of_factors(model, w, m, std::span(out.Minv));
   multiply(out.Minv, out.dtau, model.nv, 2 * model.nv, out.dqdd);
   for (S& entry : out.dqdd) entry = -entry;
 }

@@ -4,15 +4,14 @@
 // As in minv_times(), pass 2 of ABA carries the wrenches F of all unit forces in the subtree to its
 // root, pass 3 the accelerations P of the bodies to the tips:
 //
-//   tips to base   M^-1_ii = D_i^-1,   M^-1_ij = -D_i^-1 S_i^T F_j,   F_j += U_i M^-1_ij   (j below
-//   i) base to tips   M^-1_ij -= D_i^-1 U_i^T P_j,   P_j += S_i M^-1_ij                       (all
-//   j >= i)
+//   tips to base, for j below i
+//     M^-1_ii = D_i^-1,   M^-1_ij = -D_i^-1 S_i^T F_j,   F_j += U_i M^-1_ij
+//   base to tips, for all j >= i
+//     M^-1_ij -= D_i^-1 U_i^T P_j,   P_j += S_i M^-1_ij
 //
 // In the axes of Workspace::Xr, F and P are not transformed from body to body, and each is a row of
-// numbers.
-// Reads Xup, S, U and D_factors of aba() at the same q: M contains armature and the implicit terms
-// of that call. Writes Minv, nv x nv, row-major,
-// both triangles. Interface: solver/dynamics/dynamics.h.
+// numbers. M contains model.armature. Writes Minv, nv x nv, row-major, both triangles. Interface:
+// solver/dynamics/dynamics.h.
 #pragma once
 
 #include <span>
@@ -20,8 +19,43 @@
 #include "solver/model/joint_slice.h"
 #include "solver/model/matrix_workspace.h"
 #include "solver/passes/dense_matrix.h"
+#include "solver/spatial/sincos_batch.h"
 
 namespace twinarm::TWINARM_ISA {
+
+// Passes 1 and 2 of ABA as far as they depend on q alone: Xup, S, IA, U and D_factors.
+template <class S>
+void articulated_inertias(const Model<S>& model, const State<S>& x, Workspace<S>& w,
+                          const MatrixWorkspace<S>& m) {
+  precompute_sincos(x.q, w.sin, w.cos);
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      const std::size_t iq = model.iq[i];
+      const S* q = x.q.data() + iq;
+      w.Xup[i] = joint_transform(joint, q, w.sin.data() + iq, w.cos.data() + iq) * model.Xtree[i];
+      store_subspace(joint.subspace(q), w.S_.data() + model.iv[i]);
+    });
+  for (std::size_t i = model.parent.size(); i-- > 1;) {
+    if (model.last_child[i] == 0) w.IA[i] = model.I[i];
+    visit_joint(model, m.no_armature, i, [&](auto joint, auto sparsity) TWINARM_KERNEL {
+      const auto p = static_cast<std::size_t>(model.parent[i]);
+      const std::size_t iv = model.iv[i];
+      decltype(joint.subspace(nullptr)) S_i;
+      load_subspace(w.S_.data() + iv, S_i);
+      const auto U = w.IA[i] * S_i;
+      auto D = transpose_times(S_i, U);
+      add_to_diagonal(D, model.armature, m.no_armature, iv);
+      const auto factors = factorized(D);
+      store(U, w.U, iv), store(factors, w.D_factors, w.iD[i]);
+      if (p == 0) return;
+      const auto Ia = apparent_inertia(sparsity, w.IA[i], U, factors);
+      if (model.last_child[p] == static_cast<int>(i))
+        add_congruence(w.Xup[i], Ia, ArticulatedInertia<S>(model.I[p]), w.IA[p]);
+      else
+        add_congruence(w.Xup[i], Ia, w.IA[p], w.IA[p]);
+    });
+  }
+}
 
 // The factors in the common axes, and the diagonal blocks of M^-1.
 template <class S>
@@ -37,7 +71,7 @@ void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorksp
         m.S_[iv + k] = six(axes[k] = to_common_axes(X, w.S_[iv + k]));
         m.U[iv + k] = six(U[k] = transpose_times(X, w.U[iv + k]));
       }
-      const auto factors = slice_spd<joint.nv>(w.D_factors, w.iD[i]);
+      const auto factors = slice_spd<joint.nv, S>(w.D_factors, w.iD[i]);
       for (std::size_t r = 0; r < joint.nv; ++r) {
         const auto Dinv = solve(factors, unit_vector<S, joint.nv>(r));
         Motion<S> DinvS;
@@ -53,9 +87,10 @@ void factors_in_common_axes(const Model<S>& model, Workspace<S>& w, MatrixWorksp
     });
 }
 
+// Reads Xup, S, U and D_factors, of aba() with the implicit terms of that call.
 template <class S>
-[[gnu::flatten]] void minv_matrix(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m,
-                                  std::span<S> Minv) {
+[[gnu::flatten]] void minv_of_factors(const Model<S>& model, Workspace<S>& w, MatrixWorkspace<S>& m,
+                                      std::span<S> Minv) {
   const std::size_t n_bodies = model.parent.size(), nv = model.nv;
   std::ranges::fill(Minv, S(0));
   factors_in_common_axes(model, w, m, Minv);
@@ -100,6 +135,13 @@ template <class S>
       add_outer(m.S_[r], &Minv[r * nv], {end, nv}, P.pointers());
   }
   mirror_triangle<Triangle::upper>(nv, Minv.data());
+}
+
+template <class S>
+[[gnu::flatten]] void minv_matrix(const Model<S>& model, const State<S>& x, Workspace<S>& w,
+                                  MatrixWorkspace<S>& m, std::span<S> Minv) {
+  articulated_inertias(model, x, w, m);
+  minv_of_factors(model, w, m, Minv);
 }
 
 }  // namespace twinarm::TWINARM_ISA

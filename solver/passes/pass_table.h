@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/model/matrix_workspace.h"
+#include "solver/spatial/batch.h"
 
 namespace twinarm {
 
@@ -16,8 +17,10 @@ struct MatrixPasses<double> {
   void (*rnea_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
                            const std::vector<double>&, Workspace<double>&, MatrixWorkspace<double>&,
                            std::span<double>);
-  void (*minv_matrix)(const Model<double>&, Workspace<double>&, MatrixWorkspace<double>&,
-                      std::span<double>);
+  void (*minv_matrix)(const Model<double>&, const State<double>&, Workspace<double>&,
+                      MatrixWorkspace<double>&, std::span<double>);
+  void (*minv_times_lanes)(const Model<double>&, const Workspace<double>&,
+                           RightHandSides<Batch<4>>&);
   void (*aba_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
                           Workspace<double>&, MatrixWorkspace<double>&, AbaDerivatives<double>&);
 };
@@ -31,7 +34,7 @@ struct Passes : MatrixPasses<S> {
   MassMatrix *crba_in_body_axes, *crba_in_common_axes;
   void (*minv_times)(const Model<S>&, const std::vector<S>&, const std::vector<Force<S>>&,
                      Workspace<S>&);
-  void (*kinematics)(const Model<S>&, const State<S>&, Workspace<S>&);
+  void (*kinematics)(const Model<S>&, const State<S>&, BodyKinematics<S>&);
 
   void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w, std::span<S> M) const {
     (model.is_deep ? crba_in_common_axes : crba_in_body_axes)(model, x, w, M);

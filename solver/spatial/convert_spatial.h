@@ -22,6 +22,14 @@ Transform<T> convert(const Transform<S>& a) {
   return {convert<T>(a.E), convert<T>(a.r)};
 }
 template <class T, class S>
+Motion<T> convert(const Motion<S>& a) {
+  return {convert<T>(a.w), convert<T>(a.v)};
+}
+template <class T, class S>
+Force<T> convert(const Force<S>& a) {
+  return {convert<T>(a.n), convert<T>(a.f)};
+}
+template <class T, class S>
 Inertia<T> convert(const Inertia<S>& a) {
   return {T(a.m), convert<T>(a.h), convert<T>(a.I)};
 }

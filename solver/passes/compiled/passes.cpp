@@ -22,6 +22,7 @@ const Passes<TWINARM_SCALAR>& table() {
     if constexpr (std::is_same_v<S, double>) {
       passes.rnea_derivatives = &rnea_derivatives<S>;
       passes.minv_matrix = &minv_matrix<S>;
+      passes.minv_times_lanes = &minv_times_lanes<S, Batch<4>>;
       passes.aba_derivatives = &aba_derivatives<S>;
     }
     passes.aba = [](const Model<S>& model, const State<S>& x, const Forces<S>& forces,
@@ -30,7 +31,7 @@ const Passes<TWINARM_SCALAR>& table() {
     passes.crba_in_body_axes = &crba_in_body_axes<S>;
     passes.crba_in_common_axes = &crba_in_common_axes<S>;
     passes.minv_times = &minv_times<S>;
-    passes.kinematics = &kinematics<S, Workspace<S>>;
+    passes.kinematics = &kinematics<S>;
     return passes;
   }(Passes<S>{});
   return all;

@@ -181,9 +181,8 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
         const Passes<double>& pass = passes<double>(isa);
         Workspace<double> w(p.model);
         MatrixWorkspace<double> m(p.model);
-        pass.aba(p.model, p.x[0], Forces<double>(p.model), w);
         std::vector<double> inverse_M(nv * nv);
-        pass.minv_matrix(p.model, w, m, inverse_M);
+        pass.minv_matrix(p.model, p.x[0], w, m, inverse_M);
         std::vector<double> in_body_axes(nv * nv), in_common_axes(nv * nv);
         pass.crba_in_body_axes(p.model, p.x[0], w, in_body_axes);
         pass.crba_in_common_axes(p.model, p.x[0], w, in_common_axes);
@@ -198,6 +197,29 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
   MESSAGE("|M Minv - 1| / (|M||Minv|) = " << inverse << ", forms of M differ by " << forms);
   CHECK(inverse <= 2e-14);
   CHECK(forms <= 1e-14);
+}
+
+TEST_CASE("minv_times of four right-hand sides at once is that of each, to the bit") {
+  Random random(9);
+  for (const auto& types : lists_of_types())
+    for (int n = 0; n < 10; ++n) {
+      const Packed<double> p(random, random_tree(random, random.integer(1, 12), types));
+      for (const Isa isa : levels_of<double>()) {
+        const Passes<double>& pass = passes<double>(isa);
+        Workspace<double> w(p.model);
+        pass.aba(p.model, p.x[0], p.forces[0], w);
+        RightHandSides<Batch<4>> four(p.model);
+        for (Batch<4>& b : four.b)
+          for (int k = 0; k < 4; ++k) b.set(k, random.uniform(-1, 1));
+        pass.minv_times_lanes(p.model, w, four);
+        for (int k = 0; k < 4; ++k) {
+          const VectorXd b = lane_of(four.b, k);
+          pass.minv_times(p.model, {b.begin(), b.end()},
+                          std::vector<Force<double>>(p.model.parent.size()), w);
+          CHECK(lane_of(four.y, k) == lane_of(w.y, 0));
+        }
+      }
+    }
 }
 
 TEST_CASE("minv_times with wrenches on bodies is M^-1 J^T f, with their accelerations") {
