@@ -1,5 +1,7 @@
 // Time of the engines on the same mechanisms in the same situations. Prints JSON; table and figure
 // are made by scripts/measure/bench.
+#include <dlfcn.h>
+
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
@@ -15,11 +17,12 @@ constexpr std::pair<Algorithm, const char*> algorithms[] = {
     {Algorithm::forward_dynamics, "fd"}, {Algorithm::inverse_dynamics, "id"},
     {Algorithm::mass_matrix, "crba"},    {Algorithm::kinematics, "fk"},
     {Algorithm::step, "step"},           {Algorithm::inverse_mass_matrix, "minv"},
-    {Algorithm::derivatives, "dfd"}};
+    {Algorithm::derivatives, "dfd"},     {Algorithm::constrained_dynamics, "loop"}};
 
 struct Options {
   Names models = {"scara3", "puma6", "chain7", "chain32", "chain128", "humanoid30"};
   Names engines, algorithms;  // empty: all
+  Names peers;                // shared libraries (benchmarks/peers/)
   int repetitions = 9;
   double seconds = 0.02;
 };
@@ -38,14 +41,29 @@ std::string fault_of_model(const std::string& name) {
   return {};
 }
 
+Engines timed_engines(const Names& peers) {
+  Engines engines = engines_of_build(is_timed);
+  for (const std::string& path : peers) {
+    void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const add = library ? dlsym(library, "add_engines") : nullptr;
+    if (!add) throw std::runtime_error("cannot open " + path + ": " + dlerror());
+    reinterpret_cast<void (*)(Engines&)>(add)(engines);
+  }
+  return engines;
+}
+
 // ---- agreement of the results ----
 
 struct Agreement {
   std::string engine, model;
-  double error = 0;          // of qdd, against the first engine, relative to its largest entry
-  double error_inverse = 0;  // of the joint torques by inverse dynamics, likewise; 0 without it
-  double tolerance = 0;
-  bool holds() const { return error <= tolerance && error_inverse <= tolerance; }
+  double error = 0;              // of qdd, against the first engine, relative to its largest entry
+  double error_inverse = 0;      // of the joint torques by inverse dynamics, likewise; 0 without it
+  double error_constrained = 0;  // of qdd with a body held in place, likewise
+  double tolerance = 0, constrained_tolerance = 0;
+  bool holds() const {
+    return error <= tolerance && error_inverse <= tolerance &&
+           error_constrained <= constrained_tolerance;
+  }
 };
 
 using Results = std::vector<std::vector<double>>;  // by situation
@@ -66,18 +84,22 @@ double relative_error(const Results& mine, const Results& reference) {
 std::vector<Agreement> compare(Engines& engines, const std::string& model, const Scene& mechanism,
                                const std::vector<Situation>& situations) {
   std::vector<Agreement> all;
-  Results first_qdd, first_tau;
+  Results first_qdd, first_tau, first_constrained;
   for (const auto& engine : engines) {
-    Results qdd, tau;
+    Results qdd, tau, constrained;
     for (std::size_t k = 0; k < situations.size(); ++k) {
       qdd.push_back(engine->qdd(k));
+      if (engine->has(Algorithm::constrained_dynamics))
+        constrained.push_back(engine->constrained_qdd(k));
       if (!engine->has(Algorithm::inverse_dynamics)) continue;
       const std::vector<double> forces = engine->tau(k);
       tau.emplace_back(forces.begin() + (mechanism.floats() ? 6 : 0), forces.end());  // of joints
     }
-    if (first_qdd.empty()) first_qdd = qdd, first_tau = tau;
+    if (first_qdd.empty()) first_qdd = qdd, first_tau = tau, first_constrained = constrained;
     all.push_back({engine->name(), model, relative_error(qdd, first_qdd),
-                   tau.empty() ? 0 : relative_error(tau, first_tau), engine->tolerance(mechanism)});
+                   tau.empty() ? 0 : relative_error(tau, first_tau),
+                   constrained.empty() ? 0 : relative_error(constrained, first_constrained),
+                   engine->tolerance(mechanism), engine->constrained_tolerance()});
   }
   return all;
 }
@@ -88,7 +110,7 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
              std::vector<Agreement>& agreement) {
   const Scene mechanism = bench::mechanism(model);
   const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
-  Engines engines = engines_of_build(is_timed);
+  Engines engines = timed_engines(options.peers);
   std::erase_if(engines, [&](const auto& engine) {  // but the first one, the reference
     return &engine != engines.data() && !chosen(options.engines, engine->name());
   });
@@ -102,7 +124,8 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
     if (!a.holds())
       std::cerr << "bench_speed: " << a.engine << " disagrees on " << model
                 << ": relative error of qdd " << a.error << ", of tau " << a.error_inverse
-                << ", allowed " << a.tolerance << "; it is omitted\n";
+                << ", allowed " << a.tolerance << ", with a body held " << a.error_constrained
+                << ", allowed " << a.constrained_tolerance << "; it is omitted\n";
   }
 
   for (const auto& [algorithm, name] : algorithms) {
@@ -135,6 +158,7 @@ Json json_of(const Agreement& a) {
           {"model", a.model},
           {"error", std::min(kMax, a.error)},
           {"error_inverse", std::min(kMax, a.error_inverse)},
+          {"error_constrained", std::min(kMax, a.error_constrained)},
           {"tolerance", a.tolerance},
           {"pass", a.holds()}};
 }
@@ -168,9 +192,13 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(fault_of_model);
   const Names engines = names_of(engines_of_build(is_timed));
-  add_names(program, "--engines", o.engines, "default: all of this build", engines);
+  program.add_option("--engines", o.engines, "default: all of this build and of --peers")
+      ->delimiter(',');
   add_names(program, "--algorithms", o.algorithms, "default: all",
-            Names{"fd", "id", "crba", "fk", "step", "minv", "dfd"});
+            Names{"fd", "id", "crba", "fk", "step", "minv", "dfd", "loop"});
+  program.add_option("--peers", o.peers, "also the engines of these shared libraries")
+      ->delimiter(',')
+      ->check(CLI::ExistingFile);
   program.add_flag_callback(
       "--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }, "3 repetitions of 0.003 s");
   add_positive(program, "--repetitions", o.repetitions,

@@ -33,7 +33,8 @@ enum class Algorithm {
   kinematics,        // of q: poses of all bodies
   step,              // one semi-implicit step of 1 ms, without contact
   inverse_mass_matrix,
-  derivatives  // of forward dynamics by q, v and tau
+  derivatives,          // of forward dynamics by q, v and tau
+  constrained_dynamics  // qdd of q, v, tau, with the origin of the last body held in place
 };
 inline constexpr double step_length = 1e-3;  // [s]
 
@@ -70,12 +71,14 @@ class Engine {
   virtual bool has(Algorithm) const { return false; }
   // Tolerance of its qdd against twinarm in double, relative to the largest entry.
   virtual double tolerance(const Scene&) const { return 1e-9; }
+  virtual double constrained_tolerance() const { return 1e-9; }
   virtual void load_mechanism(const Scene& /*mechanism*/) {}     // once per engine object
   virtual void set_situations(const std::vector<Situation>&) {}  // converts them; not timed
   virtual void run(Algorithm) {}                                 // timed, for each situation
-  // Not timed: forward and inverse dynamics of situation k.
+  // Not timed: forward, inverse and constrained dynamics of situation k.
   virtual std::vector<double> qdd(std::size_t /*k*/) { return {}; }
   virtual std::vector<double> tau(std::size_t /*k*/) { return {}; }
+  virtual std::vector<double> constrained_qdd(std::size_t /*k*/) { return {}; }
 };
 
 // Fixed steps, and coordinates joint by joint: the common case of a peer.

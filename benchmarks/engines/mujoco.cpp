@@ -121,7 +121,7 @@ class MuJoCo final : public PeerEngine<Situation> {
         [](const Body& b) { return b.inertia[3] == 0 && b.inertia[4] == 0 && b.inertia[5] == 0; });
     return diagonal ? 1e-9 : 1e-6;
   }
-  bool has(Algorithm) const override { return true; }
+  bool has(Algorithm algorithm) const override { return algorithm <= Algorithm::derivatives; }
   // Bodies are in depth-first order, as in all the mechanisms.
   void load_mechanism(const Scene& mechanism) override {
     scene_ = mechanism;
@@ -201,6 +201,8 @@ class MuJoCo final : public PeerEngine<Situation> {
       case Algorithm::derivatives:  // of a step, by forward differences
         std::copy(s.tau.begin(), s.tau.end(), d->qfrc_applied);
         mjd_transitionFD(m, d, 1e-6, 0, rates_.data(), nullptr, nullptr, nullptr);
+        break;
+      case Algorithm::constrained_dynamics:  // its constraints are soft
         break;
     }
   }

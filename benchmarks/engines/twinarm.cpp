@@ -5,6 +5,7 @@
 
 #include "benchmarks/engines/twinarm_sources.h"
 #include "solver/dynamics/derivatives.h"
+#include "solver/loops/constrained_dynamics.h"
 #include "solver/model/convert_model.h"
 
 namespace twinarm::bench {
@@ -17,7 +18,8 @@ class TwinarmPasses : public FixedStepEngine {
 
   std::string name() const override { return name_; }
   bool has(Algorithm algorithm) const override {
-    return algorithm <= Algorithm::step || std::is_same_v<S, double>;
+    return algorithm <= Algorithm::step ||
+           (std::is_same_v<S, double> && algorithm <= Algorithm::derivatives);
   }
   void load_mechanism(const Scene& mechanism) override {
     model_ = convert<S>(model_of(mechanism));
@@ -86,14 +88,16 @@ class TwinarmPasses : public FixedStepEngine {
       case Algorithm::inverse_mass_matrix:
       case Algorithm::derivatives:
         if constexpr (std::is_same_v<S, double>) run_matrix_pass(algorithm, call);
+        return;
+      case Algorithm::constrained_dynamics:  // of Twinarm
+        return;
     }
   }
   void run_matrix_pass(Algorithm algorithm, const Call& call) {
+    if (algorithm == Algorithm::inverse_mass_matrix)
+      return passes_.minv_matrix(model_, call.x, *w_, *matrices_, M_);
     passes_.aba(model_, call.x, call.forces, *w_);
-    if (algorithm == Algorithm::derivatives)
-      passes_.aba_derivatives(model_, call.x, call.forces, *w_, *matrices_, *rates_);
-    else
-      passes_.minv_matrix(model_, *w_, *matrices_, M_);
+    passes_.aba_derivatives(model_, call.x, call.forces, *w_, *matrices_, *rates_);
   }
   void step_from(const Call& call) {
     passes_.aba(model_, call.x, call.forces, *w_);
@@ -140,6 +144,28 @@ class Twinarm final : public TwinarmPasses<double> {
     return all;
   }
   bool is_timed_with_contacts() const override { return true; }
+  bool has(Algorithm) const override { return true; }
+  void load_mechanism(const Scene& mechanism) override {
+    TwinarmPasses::load_mechanism(mechanism);
+    LoopClosure pin;
+    pin.body_b = static_cast<int>(mechanism.bodies.size());
+    constrained_.emplace(model_);
+    constrained_->bilateral().set_loops(LoopClosures(model_, {pin}));
+    frames_.emplace(model_);
+    forces_.emplace(model_);
+  }
+  std::vector<double> constrained_qdd(std::size_t k) override {
+    run(Algorithm::constrained_dynamics, calls_[k]);
+    return w_->qdd;
+  }
+  using TwinarmPasses::run;
+  void run(Algorithm algorithm, const Call& call) override {
+    if (algorithm != Algorithm::constrained_dynamics) return TwinarmPasses::run(algorithm, call);
+    forces_->tau = call.forces.tau;
+    forward_kinematics(model_, call.x, *frames_);
+    constrained_->bilateral().loops().evaluate(call.x, *frames_);
+    (*constrained_)(call.x, *forces_, *w_);
+  }
   void load(const Scene& scene, const Scheme& scheme, double h) override {
     simulation_.reset();
     begin(scene, h);
@@ -211,6 +237,9 @@ class Twinarm final : public TwinarmPasses<double> {
   double t() const { return simulation_->state().t; }
 
   static constexpr const char* kLocated = "located";  // the scheme that locates contact events
+  std::optional<ForwardDynamics> constrained_;
+  std::optional<Kinematics> frames_;
+  std::optional<Forces<double>> forces_;
   ScenePushes pushes_{scene_};
   std::optional<WatchedContacts> contacts_;
   std::optional<Simulation> simulation_;
