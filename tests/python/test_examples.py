@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 from notebook import PRELOADED, ROOT, main, twinarm
 from waiting import TIMEOUT
 
@@ -38,7 +40,7 @@ class Examples(unittest.TestCase):
     def test_each_lesson_has_a_script_that_it_links_to(self):
         lessons = sorted(file.parent for file in (ROOT / "docs" / "learn" / "lessons").glob("*/lesson.md"))
         self.assertGreater(len(lessons), 9)
-        scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson", "control_loop"}
+        scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson", "control_loop", "lqr"}
         self.assertEqual(scripts, {lesson.name for lesson in lessons})
         for lesson in lessons:
             link = f"(../../../../app/python/examples/{lesson.name}.py)"
@@ -50,13 +52,29 @@ class Examples(unittest.TestCase):
                 with self.subTest(script=script.name):
                     self.compare(script, printed(script, cwd=elsewhere))
 
-    def test_the_control_loops_obey_the_laws_that_they_print(self):
+    def numbers_of(self, script, *kinds):
+        """The numbers that say() printed, by the beginning of the line."""
         with tempfile.TemporaryDirectory() as elsewhere:
-            output = printed(EXAMPLES / "control_loop.py", cwd=elsewhere)
-        found = {what.strip(): float(value)
-                 for what, value in re.findall(r"^(\S.{40,}) = (\S+)$", output, re.MULTILINE)}
-        of = {key: [value for what, value in found.items() if what.startswith(key)] for key in
-              ("couplings", "computed torque", "impedance")}
+            output = printed(EXAMPLES / script, cwd=elsewhere)
+        found = re.findall(r"^(\S.{40,}) = (\S+)$", output, re.MULTILINE)
+        return {kind: [float(value) for what, value in found if what.startswith(kind)] for kind in kinds}
+
+    def test_the_regulators_decay_as_their_linearised_systems_do(self):
+        of = self.numbers_of("lqr.py", "Acrobot", "S-103: slowest", "S-103, target")
+        growth, decay, found, lean = of["Acrobot"]
+        # two uniform rods of 0.5 m upright, angles from the vertical: m l^2 M x'' = m g l K x
+        M, K = np.array([[4 / 3, 1 / 2], [1 / 2, 1 / 3]]), np.diag([3 / 2, 1 / 2])
+        self.assertAlmostEqual(growth, np.sqrt(np.linalg.eigvals(np.linalg.solve(M, K)).max() * 9.81 / 0.5), places=6)
+        self.assertAlmostEqual(found / decay, 1, delta=0.02)
+        self.assertGreater(lean, 1)
+        alone, regulated = of["S-103: slowest"]
+        late, early = of["S-103, target"]
+        self.assertAlmostEqual(late * alone, np.log(50), delta=1)  # to 2 %
+        self.assertLess(early, late / 5)
+        self.assertGreater(regulated, 5 * alone)
+
+    def test_the_control_loops_obey_the_laws_that_they_print(self):
+        of = self.numbers_of("control_loop.py", "couplings", "computed torque", "impedance")
         error, predicted, push, unbalanced = of["computed torque"]
         self.assertAlmostEqual(error / predicted, 1, delta=0.1)  # first order in w h
         self.assertLess(unbalanced, 1e-5)
