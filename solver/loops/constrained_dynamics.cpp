@@ -92,12 +92,12 @@ void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
   aba(*model_, x, forces, w);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
 
-  a_ = w.qdd;
-  if (bilateral_.any()) {
-    bilateral_.prepare(w);
-    bilateral_.project_acceleration(a_);
+  if (bilateral_.any()) bilateral_.prepare(w);
+  if (has_coulomb()) {
+    a_ = w.qdd;
+    if (bilateral_.any()) bilateral_.project_acceleration(a_);
+    solve_unknown_friction(x, h, rule, w);
   }
-  if (has_coulomb()) solve_unknown_friction(x, h, rule, w);
   correct_accelerations(w);
   remove_rounding(h, w);
   if (h > 0 && has_damping_ && friction_on_)

@@ -199,7 +199,7 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
   CHECK(forms <= 1e-14);
 }
 
-TEST_CASE("minv_times of four right-hand sides at once is that of each, to the bit") {
+TEST_CASE("minv_times of four right-hand sides at once is that of each to rounding, and to the bit without FMA") {
   Random random(9);
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 10; ++n) {
@@ -216,7 +216,8 @@ TEST_CASE("minv_times of four right-hand sides at once is that of each, to the b
           const VectorXd b = lane_of(four.b, k);
           pass.minv_times(p.model, {b.begin(), b.end()},
                           std::vector<Force<double>>(p.model.parent.size()), w);
-          CHECK(lane_of(four.y, k) == lane_of(w.y, 0));
+          const VectorXd one = lane_of(w.y, 0), of_four = lane_of(four.y, k);
+          CHECK((of_four - one).norm() <= (isa == Isa::generic ? 0 : 1e-12 * one.norm()));
         }
       }
     }
