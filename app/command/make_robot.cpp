@@ -14,8 +14,7 @@ void add_options(const OptionAdder& add, MakeRobotOptions& options) {
 }
 
 int run_make_robot(const MakeRobotOptions& options) {
-  make_robot(options.recipe);
-  const RecipeResult made = read_recipe(options.recipe);
+  const RecipeResult made = make_robot(options.recipe);
   std::vector<std::filesystem::path> files{options.recipe};
   files.front().replace_filename(made.robot.name + ".urdf");
   for (const HullFile& hull : made.hulls) files.push_back(hull.file);

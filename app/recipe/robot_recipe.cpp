@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "app/support/progress.h"
 #include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
@@ -29,7 +30,12 @@ class RobotFromCad {
     result_.robot.file = recipe_.file;
     result_.robot.joints = recipe_.joints;
     file_name(recipe_.name, "recipe", 1);
-    for (const RecipeLink& link : recipe_.links) make_link(link);
+    Progress progress(false, Progress::kPatience);
+    for (const RecipeLink& link : recipe_.links) {
+      progress.stage("link " + link.name, 1 / static_cast<double>(recipe_.links.size()));
+      check_interrupt();
+      make_link(link);
+    }
     RobotCheck check = check_robot(result_.robot, true);
     faults_.add(check.faults);
     result_.robot.warnings = std::move(check.warnings);
@@ -166,8 +172,8 @@ RecipeResult read_recipe(const std::filesystem::path& recipe_toml) {
   return RobotFromCad(recipe_toml).run();
 }
 
-void make_robot(const std::filesystem::path& recipe_toml) {
-  const RecipeResult result = read_recipe(recipe_toml);
+RecipeResult make_robot(const std::filesystem::path& recipe_toml) {
+  RecipeResult result = read_recipe(recipe_toml);
   const std::filesystem::path folder = result.robot.file.parent_path();
   for (const HullFile& hull : result.hulls) {
     std::error_code ignored;  // writing reports the error
@@ -175,6 +181,7 @@ void make_robot(const std::filesystem::path& recipe_toml) {
     write_whole_file(hull.file, stl_bytes(hull.hull, hull.scale));
   }
   write_urdf(result.robot, folder / (result.robot.name + ".urdf"), comment_for(result.robot));
+  return result;
 }
 
 static_assert(std::endian::native == std::endian::little, "STL files are little-endian");

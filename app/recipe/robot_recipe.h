@@ -70,7 +70,7 @@ struct RecipeResult {
 RecipeResult read_recipe(const std::filesystem::path& recipe_toml);
 
 // Writes <name>.urdf and collision/*.stl next to the recipe; deterministic.
-void make_robot(const std::filesystem::path& recipe_toml);
+RecipeResult make_robot(const std::filesystem::path& recipe_toml);
 
 // A binary STL file with `scale` metres as its unit: 80 bytes of header, number of triangles, 50
 // bytes per triangle.

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -79,6 +81,23 @@ TEST_CASE("the triangles of a hull are a closed outward surface, with V - E + F 
     CHECK(hull.vertices.size() + hull.faces.size() == sides / 2 + 2);
     for (std::size_t f = 0; f < hull.faces.size(); ++f) CHECK(hull.offsets[f] > 0);
   }
+}
+
+TEST_CASE("the hull of a ball of 13,000 points has its flat quadrilaterals as faces") {
+  constexpr int kRings = 82, kAround = 164;
+  std::vector<Vector3> points = {{0, 0, 1}, {0, 0, -1}};
+  for (int ring = 1; ring < kRings; ++ring)
+    for (int k = 0; k < kAround; ++k) {
+      const double polar = std::numbers::pi * ring / kRings,
+                   azimuth = 2 * std::numbers::pi * k / kAround;
+      points.emplace_back(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                          std::cos(polar));
+    }
+  const ConvexHull hull = convex_hull(points);
+  CHECK(hull.vertices.size() == points.size());
+  CHECK(hull.faces.size() == kRings * kAround);
+  CHECK(is_closed({hull.vertices, hull.triangles}));
+  CHECK(highest_outside(hull, points) == 0);
 }
 
 TEST_CASE("opposite parallel faces are one slab") {
