@@ -16,6 +16,7 @@
 #include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
+#include "collision/mesh_files/assimp_reader.h"
 #include "collision/sandbox/fork_server.h"
 #include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
@@ -251,6 +252,7 @@ class Lab {
 };
 
 int run_lab(const LabOptions& options) {
+  twinarm_assimp_reader();  // opens its module for the server too
   const ForkServer before_threads;
   isolate_parsers();
   Lab lab(options, read_gallery());

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/detection/fcl_box_tree.h"
 #include "collision/geometry/mesh.h"
 
 namespace twinarm {
@@ -14,19 +15,13 @@ namespace twinarm {
 // the same pairs. One instance per thread.
 class BroadPhase {
  public:
-  BroadPhase();
-  ~BroadPhase();
-  BroadPhase(BroadPhase&&) noexcept;
-  BroadPhase& operator=(BroadPhase&&) noexcept;
-
   // Adds a box. overlaps() takes one box for each call of add(), in the same order.
-  void add();
+  void add() { tree_.reset(); }
   // All overlapping pairs (i < j), unsorted.
   void overlaps(std::span<const Aabb> boxes, std::vector<std::pair<int, int>>& pairs);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<BoxTree> tree_;  // null until it is needed
 };
 
 }  // namespace twinarm

@@ -57,6 +57,11 @@ add_custom_command(OUTPUT ${MADE}/changelog.gz
   DEPENDS ${changelog} ${PACKAGING}/debian_changelog.py)
 add_custom_target(twinarm_packaging ALL
   DEPENDS ${MADE}/twinarm.1.gz ${MADE}/twinarm ${MADE}/changelog.gz)
+if(TARGET twinarm_assimp)
+  set(modules ${CMAKE_INSTALL_LIBDIR}/twinarm/modules)  # CPack calls ldconfig for libraries a level higher
+  set_target_properties(twinarm PROPERTIES INSTALL_RPATH "$ORIGIN/../${modules}")
+  install(TARGETS twinarm_assimp twinarm_fcl LIBRARY DESTINATION ${modules} COMPONENT program)
+endif()
 install(TARGETS twinarm RUNTIME COMPONENT program)
 install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/twinarm COMPONENT program
   PATTERN cad EXCLUDE PATTERN "*.py" EXCLUDE)  # what assets are made from stays with the sources

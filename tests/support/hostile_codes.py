@@ -31,7 +31,7 @@ UNREACHABLE = {
              "model.negative model.parent render.camera render.size robot.unknown-link shape.mass shape.numbers "
              "target.degrees-of-freedom target.unknown-joint",
              "only for callers of the library; readers of files and options refuse it first"),
-    **of_all("file.stdout file.write picture.write render.lettering render.library render.memory",
+    **of_all("file.stdout file.write picture.write program.module render.lettering render.library render.memory",
              "fault of the machine"),
     "change.joints": "the lab rebuilds the scene before it restarts a run",
     "device.silent": "needs a device that sends nothing",
