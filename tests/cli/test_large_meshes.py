@@ -55,7 +55,7 @@ class LargeMeshes(ProgramTest):
             self.assertLess(processor_time_of_ended() - before, MAX_SECONDS)
 
     def test_sigterm_ends_making_a_robot_between_two_links_without_any_file(self):
-        recipe = self.recipe(60, 40)
+        recipe = self.recipe(100, 24)
         _, reported = self.interrupted("make-robot", recipe, blow=signal.SIGTERM)
         self.assertIn("no partial files", reported)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["balls.toml", "meshes"])
