@@ -48,8 +48,8 @@ class LargeMeshes(ProgramTest):
         self.twinarm("make-robot", recipe)
         hull = (self.folder / "collision/hull0.stl").stat().st_size
         self.assertGreater((hull - 84) / 50, 100000)  # triangles: no vertex is inside the hull of a ball
-        scene = self.write("scene.toml", '[[robot]]\nname = "r"\nmodel = "balls.urdf"\n[[body]]\nname = "floor"\n'
-                                         "fixed = true\nshape = { box = { size = [1, 1, 1] } }\nposition = [0, 0, -2]\n")
+        scene = self.write("scene.toml", '[[robot]]\nname = "r"\nmodel = "balls.urdf"\n[[body]]\nname = "box"\n'
+                           "fixed = true\nshape = { box = { size = [1, 1, 1] } }\nposition = [0, 0, -2]\n")
         self.twinarm("simulate", scene, "--duration", 0.001)
         if "san" not in program.PROGRAM:
             self.assertLess(processor_time_of_ended() - before, MAX_SECONDS)

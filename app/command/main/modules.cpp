@@ -1,6 +1,6 @@
-// Relocating assimp and FCL takes several milliseconds. So the program has them in modules, which it
-// opens when it first needs them: these functions stand for those in the libraries of collision/,
-// with which tests and other programs are linked.
+// Relocating assimp and FCL takes several milliseconds. So the program has them in modules, which
+// it opens when it first needs them: these functions stand for those in the libraries of
+// collision/, with which tests and other programs are linked.
 #include <dlfcn.h>
 
 #include <string>
