@@ -133,6 +133,7 @@ std::vector<Peer> all_peers() {
   std::vector<Peer> peers;
   for (const EngineKind& kind : kinds_in_order())
     peers.push_back({kind.name, std::move(kind.make().front())});
+  std::erase_if(peers, [](const Peer& peer) { return peer.engine->schemes({}).empty(); });
   return peers;
 }
 

@@ -110,7 +110,8 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
   const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
   Engines engines = timed_engines(options.peers);
   std::erase_if(engines, [&](const auto& engine) {  // but the first one, the reference
-    return &engine != engines.data() && !chosen(options.engines, engine->name());
+    return &engine != engines.data() &&
+           (!chosen(options.engines, engine->name()) || !engine->refusal(mechanism).empty());
   });
   for (const auto& engine : engines) {
     engine->load_mechanism(mechanism);

@@ -199,7 +199,9 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
   CHECK(forms <= 1e-14);
 }
 
-TEST_CASE("minv_times of four right-hand sides at once is that of each to rounding, and to the bit without FMA") {
+TEST_CASE(
+    "minv_times of four right-hand sides at once is that of each to rounding, and to the bit "
+    "without FMA") {
   Random random(9);
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 10; ++n) {
