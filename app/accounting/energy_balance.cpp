@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/dynamics/energy_momentum.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm {
 namespace {
@@ -32,6 +33,7 @@ EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWre
       wrenches_(wrenches),
       couplings_(couplings),
       k_(input.model),
+      w_(input.model),
       start_(input.state.x),
       now_(start_) {
   find_rows(integrator, others_want_inner);
@@ -165,10 +167,14 @@ std::vector<EnergyRow> EnergyBalance::input_work() const {
   return rows;
 }
 
+EnergyBalance::Energies EnergyBalance::energies(const State<double>& x) const {
+  kinematics(input_.model, x, w_);
+  return {kinetic_energy(input_.model, x, w_), potential_energy(input_.model, w_)};
+}
+
 std::vector<EnergyRow> EnergyBalance::rows() const {
-  const Model<double>& model = input_.model;
-  std::vector<EnergyRow> rows{{EnergyRowKind::gravity, "gravity",
-                               potential_energy(model, start_) - potential_energy(model, now_)}};
+  const Energies start = energies(start_), now = energies(now_);
+  std::vector<EnergyRow> rows{{EnergyRowKind::gravity, "gravity", start.potential - now.potential}};
   auto integral = integrals_.begin();
   for (const Actuator& actuator : actuators_) {
     if (!actuator.is_exact) {
@@ -195,7 +201,7 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
                       "coupling/" + spec.name + "/" + name_of(third),
                       implicit_[c] - spring - damper->work});
   }
-  double residual = kinetic_energy(model, now_) - kinetic_energy(model, start_);
+  double residual = now.kinetic - start.kinetic;
   for (const EnergyRow& row : rows) residual -= row.work;
   rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});
   return rows;

@@ -61,6 +61,10 @@ class EnergyBalance {
   using Side = SceneCouplings::Side;  // one-sided limit at a kink of the target's motion
   std::vector<double> powers(const State<double>& x, Side side) const;  // as integrals_
   double elastic_energy(std::size_t c, const State<double>& x) const;   // k e^2 / 2
+  struct Energies {
+    double kinetic, potential;  // [J]
+  };
+  Energies energies(const State<double>& x) const;
   void add_implicit(double h, const State<double>& end);
   std::size_t coupling_count() const { return couplings_ ? couplings_->size() : 0; }
 
@@ -74,6 +78,7 @@ class EnergyBalance {
   std::vector<double> implicit_;  // h force - m* dv over the mean velocity, by coupling
   std::vector<double> nodes_, weights_;
   mutable Kinematics k_;
+  mutable Workspace<double> w_;
   State<double> start_, now_;
   std::vector<double> power_now_;
 };

@@ -92,7 +92,7 @@ void write_frame(JsonWriter& json, const Recording& recording, const RecordedFra
   json.object([&] {
     json.members({{"t", frame.t},
                   {"step", frame.step},
-                  {"hash", fmt::format("{:016x}", frame.hash)},
+                  {"hash", fmt::format("{:016x}", hash_of(frame, recording.version()))},
                   {"values", frame.values}});
     json.key("couplings").object([&] {
       for (std::size_t c = 0; c < frame.coupling_forces.size(); ++c)
@@ -138,7 +138,7 @@ void print_recording_csv(const Recording& recording) {
     check_interrupt();
     const RecordedFrame frame = recording.frame(n);
     fmt::print("{},{},{},{:016x}\n", csv_line(std::vector{frame.t}), frame.step,
-               csv_line(csv_values(recording, frame, pairs)), frame.hash);
+               csv_line(csv_values(recording, frame, pairs)), hash_of(frame, recording.version()));
   }
 }
 

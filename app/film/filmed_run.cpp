@@ -231,7 +231,7 @@ SceneView view_of(const FilmedRun& run) {
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;
-  instant.x = recorded_state(simulation_memory(frame.memory), model);
+  instant.x = recorded_state(frame, model);
   instant.coupling_forces = frame.coupling_forces;
   instant.contacts = frame.contacts;
   instant.memory = frame.memory;

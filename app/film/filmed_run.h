@@ -21,7 +21,7 @@ struct RunInstant {
   State<double> x;
   std::vector<Vector3> coupling_forces;
   std::vector<RecordedContact> contacts;
-  std::string memory;  // serialized state of the run
+  std::string memory;  // serialized state of the run; of a recording: memory_at()
 };
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model);

@@ -31,7 +31,9 @@ bool same_legend(const std::vector<LegendLine>& a, const std::vector<LegendLine>
 Inspection inspect(FilmedRun& run, const RunInstant& instant) {
   SimulateInput& input = run.plan.input;
   set_pose(input.robot, instant.x);
-  StateArchive memory = simulation_memory(instant.memory);
+  StateArchive memory = simulation_memory(
+      run.recording ? memory_at(*run.recording, run.recording->at(instant.x.t, "--at"), *run.files)
+                    : instant.memory);
   Inspected found =
       input.scene
           ? SceneInspector(input, run.plan.run.step, {}, run.plan.run.integrator).look(&memory)

@@ -163,7 +163,7 @@ class SceneStepper : public OnlyConstructed {
   py::list contacts() const {
     py::list all;
     const auto& geometries = plan_.input.scene->geometries;
-    for (const RecordedContact& c : frame_of(*run, plan_).contacts)
+    for (const RecordedContact& c : frame_of(*run, plan_, false).contacts)
       all.append(py::make_tuple(geometries[static_cast<std::size_t>(c.a)].name,
                                 geometries[static_cast<std::size_t>(c.b)].name, c.depth,
                                 three(c.point), three(c.normal), three(c.force), three(c.couple)));

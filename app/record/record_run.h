@@ -20,8 +20,8 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
 // Fills in the contents of frames: integrator, step, columns, couplings, geometries.
 void describe_frames(const SimulatePlan& prepared, RecordingHeader& header);
 
-// Without the rows of the balances.
-RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared);
+// Without the rows of the balances; with memory, or with q and qd.
+RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared, bool with_memory = true);
 
 // Adds those rows, by index of their names; new names are appended.
 void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,

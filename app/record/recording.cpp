@@ -4,8 +4,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <type_traits>
@@ -20,6 +20,13 @@ void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t min_byte
   for (T& item : items) f(item);
 }
 constexpr std::size_t kMinText = 8, kMinContact = 16 + 4 * sizeof(Vector3);  // [bytes]
+
+void visit_contacts(StateArchive& memory, RecordedFrame& frame) {
+  visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
+    memory.visit(contact.a, contact.b, contact.depth, contact.point, contact.normal, contact.force,
+                 contact.couple);
+  });
+}
 
 // Calls f(name, member) for all options of a run, in the order of the file.
 template <class Run, class F>
@@ -66,19 +73,25 @@ void visit_run(StateArchive& memory, RunSettings& run) {
 using Json = nlohmann::ordered_json;
 
 // Fields of a frame: name, type, unit; [] after a count of 8 bytes.
-constexpr std::array kFrameLayout{
-    "step int64",
-    "t float64 s",
-    "hash uint64",
-    "values float64[]",
-    "pulls float64[][3]",
-    "contacts {a int32, b int32, depth float64 m, "
-    "point float64[3] m, normal float64[3], force float64[3] N, couple float64[3] N m}[]",
-    "rows uint32[]",
-    "works float64[] J",
-    "momentum_rows uint32[]",
-    "momenta float64[][3]",
-    "memory uint8[]"};
+Json frame_layout(std::uint32_t version) {
+  Json layout{"step int64", "t float64 s"};
+  const auto add = [&](std::initializer_list<const char*> fields) {
+    for (const char* field : fields) layout.push_back(field);
+  };
+  if (version < 4)
+    add({"hash uint64"});
+  else
+    add({"q float64[]", "qd float64[]"});
+  add({"values float64[]", "pulls float64[][3]",
+       "contacts {a int32, b int32, depth float64 m, "
+       "point float64[3] m, normal float64[3], force float64[3] N, couple float64[3] N m}[]"});
+  if (version < 4)
+    add({"rows uint32[]", "works float64[] J", "momentum_rows uint32[]", "momenta float64[][3]",
+         "memory uint8[]"});
+  else
+    add({"works float64[] J", "momenta float64[][3]", "rows uint32[]", "momentum_rows uint32[]"});
+  return layout;
+}
 
 // Text that is not UTF-8 (paths, command lines) becomes a list of bytes.
 Json text_json(const std::string& text) {
@@ -152,8 +165,8 @@ RunSettings run_of(const Json& json) {
   return run;
 }
 
-RecordingHeader header_from(const Json& json) {
-  if (json.at("frame") != Json(kFrameLayout))
+RecordingHeader header_from(const Json& json, std::uint32_t version) {
+  if (json.at("frame") != frame_layout(version))
     throw std::runtime_error("its frames have another layout than this program reads");
   RecordingHeader header;
   header.program = text_of(json.at("program"));
@@ -206,6 +219,19 @@ std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis) {
   return hash;
 }
 
+std::uint64_t hash_of(const RecordedFrame& frame, std::uint32_t version) {
+  if (version < 4) return frame.hash;
+  StateArchive state;
+  double t = frame.t;
+  std::vector<double> q = frame.q, qd = frame.qd;
+  state.visit(t, q, qd);
+  return hash_of(state.bytes());
+}
+
+void take_state_from_memory(RecordedFrame& frame) {
+  if (!frame.memory.empty()) simulation_memory(frame.memory).visit(frame.q, frame.qd);
+}
+
 std::uint32_t checksum(const char* bytes, std::size_t count) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
@@ -222,13 +248,21 @@ void visit_version_2(StateArchive& memory, RecordingHeader& header) {
   memory.visit(header.couplings, header.geometries);
 }
 
-void visit(StateArchive& memory, RecordedFrame& frame) {
+void visit_version_3(StateArchive& memory, RecordedFrame& frame) {
   memory.visit(frame.step, frame.t, frame.hash, frame.values, frame.coupling_forces);
-  visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
-    memory.visit(contact.a, contact.b, contact.depth, contact.point, contact.normal, contact.force,
-                 contact.couple);
-  });
+  visit_contacts(memory, frame);
   memory.visit(frame.rows, frame.works, frame.momentum_rows, frame.momenta, frame.memory);
+}
+
+void visit_motion(StateArchive& memory, RecordedFrame& frame) {
+  memory.visit(frame.step, frame.t, frame.q, frame.qd, frame.values, frame.coupling_forces);
+  visit_contacts(memory, frame);
+}
+
+// Words of 4 bytes last: FrameCoder codes words of 8.
+void visit(StateArchive& memory, RecordedFrame& frame) {
+  visit_motion(memory, frame);
+  memory.visit(frame.works, frame.momenta, frame.rows, frame.momentum_rows);
 }
 
 std::string header_text(const RecordingHeader& header) {
@@ -247,23 +281,24 @@ std::string header_text(const RecordingHeader& header) {
                  })},
       {"couplings", list_json(header.couplings, text_json)},
       {"geometries", list_json(header.geometries, text_json)},
-      {"frame", kFrameLayout},
+      {"frame", frame_layout(recording_format::kVersion)},
       {"files",
        list_json(header.files, [](const RecordedFile& file) { return text_json(file.path); })}};
   return json.dump(1);
 }
 
 // Rejects headers that no run writes, before memory is allocated for them.
-RecordingHeader parse_header(std::string_view text) try {
+RecordingHeader parse_header(std::string_view text, std::uint32_t version) try {
   constexpr std::size_t kMaxBytes = 32u << 20;
   constexpr int kMaxDepth = 8;
   if (text.size() > kMaxBytes) throw std::runtime_error("its header has more than 32 MiB");
-  return header_from(Json::parse(text, [](int depth, Json::parse_event_t event, const Json&) {
+  const auto check_depth = [](int depth, Json::parse_event_t event, const Json&) {
     const bool opens =
         event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
     if (opens && depth >= kMaxDepth) throw std::runtime_error("its header is nested too deeply");
     return true;
-  }));
+  };
+  return header_from(Json::parse(text, check_depth), version);
 } catch (const Json::parse_error& error) {
   throw std::runtime_error(fmt::format("its header is not JSON: error at byte {}", error.byte));
 } catch (const Json::exception& error) {

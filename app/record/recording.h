@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include "app/record/frame_coder.h"
 #include "app/run/run.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/atomic_file.h"
@@ -44,7 +47,8 @@ struct RecordedContact {  // on b, world axes
 struct RecordedFrame {
   long step = 0;
   double t = 0;                          // [s]
-  std::uint64_t hash = 0;                // of memory
+  std::uint64_t hash = 0;                // of memory, as recorded before version 4
+  std::vector<double> q, qd;             // of the model, with prescribed joints; empty: in memory
   std::vector<double> values;            // coordinates, velocities, positions, energies
   std::vector<Vector3> coupling_forces;  // coupling forces on the link [N or N m]
   std::vector<RecordedContact> contacts;
@@ -52,8 +56,10 @@ struct RecordedFrame {
   std::vector<double> works;                 // [J]
   std::vector<std::uint32_t> momentum_rows;  // of the momentum balance: indices of names
   std::vector<Vector3> momenta;              // linear, angular of each row [N s], [N m s]
-  std::string memory;                        // serialized state of the run
+  std::string memory;  // serialized state of the run; of a recording only in keyframes
 };
+// Fills in q and qd from memory, if it is there. Throws std::runtime_error.
+void take_state_from_memory(RecordedFrame& frame);
 
 // "A-B" of a contact.
 std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b);
@@ -63,22 +69,30 @@ std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows)
 
 // FNV-1a, 64 bits; `basis`: its offset basis.
 std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis = 0xcbf29ce484222325u);
+// Hash of a state in a recording of this version: of t, q and qd; before version 4 the recorded
+// one.
+std::uint64_t hash_of(const RecordedFrame& frame, std::uint32_t version);
 
 // The header as JSON, with the layout of frames; the contents of files follow in their own blocks.
 // Parsing ignores unknown keys and throws std::runtime_error if a key is missing or invalid, or
 // frames have another layout.
 std::string header_text(const RecordingHeader& header);
-RecordingHeader parse_header(std::string_view text);
-// Serialize (solver/support/state_archive.h): the header of format version 2, a frame.
+RecordingHeader parse_header(std::string_view text, std::uint32_t version);
+// Serialize (solver/support/state_archive.h): the header of format version 2, a frame of version 3,
+// a frame without memory, its part that does not depend on the numbers of rows.
 void visit_version_2(StateArchive& memory, RecordingHeader& header);
+void visit_version_3(StateArchive& memory, RecordedFrame& frame);
 void visit(StateArchive& memory, RecordedFrame& frame);
+void visit_motion(StateArchive& memory, RecordedFrame& frame);
 
 // Blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
 namespace recording_format {
 inline constexpr char kMagic[9] = "TWINREC\n";
-inline constexpr std::uint32_t kVersion = 3;  // version 2 can be read
+inline constexpr std::uint32_t kVersion = 4;  // versions 2 and 3 can be read
 inline constexpr char kHeader = 'H', kFile = 'D', kName = 'N', kMomentumName = 'M', kAlarm = 'A',
-                      kFrame = 'F', kEnd = 'E';
+                      kMemory = 'S', kFrame = 'F', kEnd = 'E';
+inline constexpr long kKeyframeEvery = 64;             // steps
+inline constexpr std::size_t kFrameStart = 16;         // bytes of step and time, not compressed
 inline constexpr std::size_t kStart = 12;              // magic and version
 inline constexpr std::size_t kBefore = 5, kAfter = 4;  // bytes of a block around its payload
 }  // namespace recording_format
@@ -95,6 +109,10 @@ class RecordingWriter {
   // recording_format); writes new names.
   std::uint32_t number_of(char kind, const std::string& row);
   void alarm(const std::string& words);
+  // Whether the frame of this step becomes a keyframe, and so needs its memory.
+  bool needs_memory(long step) const {
+    return !keyframe_ || step - *keyframe_ >= recording_format::kKeyframeEvery;
+  }
   void write(RecordedFrame& frame);
   // Writes how the run ended and renames the file. Throws InputError.
   void finish(const std::string& how);
@@ -106,7 +124,9 @@ class RecordingWriter {
   UnfinishedFile out_;
   std::string waiting_;
   std::chrono::steady_clock::time_point flushed_;
-  std::map<char, std::map<std::string, std::uint32_t>> names_;  // by kind
+  std::map<char, std::unordered_map<std::string, std::uint32_t>> names_;  // by kind
+  FrameCoder coder_;
+  std::optional<long> keyframe_;  // step of the last one
 };
 
 std::filesystem::path part_of(const std::filesystem::path& file);

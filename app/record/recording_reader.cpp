@@ -55,8 +55,8 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   if (start.size() < kStart)
     reject("it is truncated within its first bytes", "record it again", "recording.cut-short");
   version_ = number_at(start, 8);
-  if (version_ != 2 && version_ != kVersion)
-    reject(fmt::format("its format is version {}; this program reads versions 2 and {}", version_,
+  if (version_ < 2 || version_ > kVersion)
+    reject(fmt::format("its format is version {}; this program reads versions 2 to {}", version_,
                        kVersion),
            version_ > kVersion ? "read it with the newer twinarm that wrote it" : "record it again",
            "recording.version");
@@ -120,7 +120,7 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
       visit_version_2(memory, header_);
       files_ = header_.files.size();
     } else {
-      header_ = parse_header(payload);
+      header_ = parse_header(payload, version_);
     }
     has_header_ = true;
   } else if (kind == kFile) {
@@ -136,6 +136,9 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
     end_ = payload;
   } else if (kind == kFrame) {
     take_frame(begin, payload);
+  } else if (kind == kMemory && version_ > 3) {
+    if (!keyframes_.empty() && keyframes_.back().frame == places_.size()) keyframes_.pop_back();
+    keyframes_.push_back({places_.size(), begin, payload.size()});
   }
 }
 
@@ -146,7 +149,7 @@ void Recording::take_text(std::string_view text, std::vector<std::string>& texts
 }
 
 void Recording::take_frame(std::size_t begin, std::string_view payload) {
-  StateArchive memory{std::string(payload.substr(0, 16))};
+  StateArchive memory{std::string(payload.substr(0, recording_format::kFrameStart))};
   long step = 0;
   double t = 0;
   memory.visit(step, t);
@@ -154,22 +157,67 @@ void Recording::take_frame(std::size_t begin, std::string_view payload) {
     throw std::runtime_error("there are more than 16 million frames");
   if (!(t >= (places_.empty() ? -HUGE_VAL : places_.back().t)))
     throw std::runtime_error("the time of a frame is before that of the previous one");
+  const std::size_t since =
+      keyframes_.empty() ? kMaxFrames : places_.size() - keyframes_.back().frame;
+  if (version_ > 3 && since >= recording_format::kKeyframeEvery)
+    throw std::runtime_error("64 frames or the first one are without a keyframe");
   places_.push_back({begin, payload.size(), t});
+}
+
+std::string Recording::bytes_at(std::size_t begin, std::size_t size) const {
+  std::string bytes(size, '\0');
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(begin));
+  if (!stream_.read(bytes.data(), static_cast<std::streamsize>(size)))
+    throw std::runtime_error("the file has become shorter");
+  return bytes;
+}
+
+const Recording::Keyframe& Recording::keyframe_of(std::size_t n) const {
+  return std::ranges::upper_bound(keyframes_, n, {}, &Keyframe::frame)[-1];
+}
+
+std::size_t Recording::keyframe(std::size_t n) const {
+  return version_ < 4 ? n : keyframe_of(n).frame;
+}
+
+RecordedFrame Recording::read_frame(std::size_t n) const {
+  using recording_format::kFrameStart;
+  RecordedFrame frame;
+  if (version_ < 4) {
+    StateArchive archive(bytes_at(places_[n].begin, places_[n].size));
+    visit_version_3(archive, frame);
+    if (!archive.at_end()) throw std::runtime_error("bytes are left over");
+    take_state_from_memory(frame);
+    return frame;
+  }
+  const Keyframe& keyframe = keyframe_of(n);
+  if (decoded_ <= keyframe.frame || decoded_ > n + 1) {
+    decoded_ = keyframe.frame;
+    coder_.restart();
+  }
+  while (decoded_ <= n) {
+    const Place& place = places_[decoded_];
+    const std::string bytes = bytes_at(place.begin, place.size);
+    last_ = bytes.substr(0, kFrameStart) +
+            coder_.decode(std::string_view(bytes).substr(kFrameStart), kMaxBlock);
+    ++decoded_;
+  }
+  StateArchive archive(last_);
+  visit(archive, frame);
+  if (!archive.at_end()) throw std::runtime_error("bytes are left over");
+  if (keyframe.frame == n)
+    frame.memory = decompressed(bytes_at(keyframe.begin, keyframe.size), kMaxBlock);
+  return frame;
 }
 
 RecordedFrame Recording::frame(std::size_t n) const {
   RecordedFrame frame;
   bool fits = true;
   try {
-    std::string bytes(places_[n].size, '\0');
-    stream_.clear();
-    stream_.seekg(static_cast<std::streamoff>(places_[n].begin));
-    if (!stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-      throw std::runtime_error("the file has become shorter");
-    StateArchive memory(std::move(bytes));
-    visit(memory, frame);
-    fits = memory.at_end();
+    frame = read_frame(n);
   } catch (const std::runtime_error&) {
+    decoded_ = 0;
     fits = false;
   }
   const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {

@@ -1,5 +1,5 @@
 // Reads the valid part of a recording. The file is scanned once, block by block; frames are read on
-// demand.
+// demand, from the keyframe before them or from the last one read.
 #pragma once
 
 #include <filesystem>
@@ -28,6 +28,8 @@ class Recording {
 
   std::size_t size() const { return places_.size(); }
   RecordedFrame frame(std::size_t n) const;
+  // The last frame at or before n that has memory.
+  std::size_t keyframe(std::size_t n) const;
   // The last frame at or before t (up to a millionth of a step after it). Throws InputError that
   // names `option` if t is outside the recording.
   std::size_t at(double t, const std::string& option) const;
@@ -37,10 +39,16 @@ class Recording {
     std::size_t begin, size;  // of the payload
     double t;
   };
+  struct Keyframe {
+    std::size_t frame, begin, size;  // of the payload that has its memory
+  };
   void read_blocks();
   void take(char kind, std::size_t begin, std::string_view payload);
   void take_text(std::string_view text, std::vector<std::string>& texts);
   void take_frame(std::size_t begin, std::string_view payload);
+  std::string bytes_at(std::size_t begin, std::size_t size) const;
+  const Keyframe& keyframe_of(std::size_t n) const;
+  RecordedFrame read_frame(std::size_t n) const;
 
   std::string file_, end_;
   mutable std::ifstream stream_;
@@ -52,6 +60,10 @@ class Recording {
   bool has_header_ = false;
   std::vector<std::string> names_, momentum_names_, alarms_, notes_;
   std::vector<Place> places_;
+  std::vector<Keyframe> keyframes_;
+  mutable FrameCoder coder_;
+  mutable std::size_t decoded_ = 0;  // number of the next frame that coder_ decodes
+  mutable std::string last_;         // the frame before it, decoded
 };
 
 }  // namespace twinarm

@@ -39,7 +39,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHea
 }
 
 std::uint32_t RecordingWriter::number_of(char kind, const std::string& row) {
-  std::map<std::string, std::uint32_t>& names = names_[kind];
+  auto& names = names_[kind];
   const auto [place, is_new] = names.try_emplace(row, static_cast<std::uint32_t>(names.size()));
   if (is_new) block(kind, row);
   return place->second;
@@ -50,9 +50,17 @@ void RecordingWriter::alarm(const std::string& words) {
 }
 
 void RecordingWriter::write(RecordedFrame& frame) {
-  StateArchive memory;
-  visit(memory, frame);
-  block(recording_format::kFrame, memory.bytes());
+  if (needs_memory(frame.step)) {
+    keyframe_ = frame.step;
+    coder_.restart();
+    block(recording_format::kMemory, compressed(frame.memory));
+  }
+  take_state_from_memory(frame);
+  StateArchive archive;
+  visit(archive, frame);
+  const std::string_view bytes = archive.bytes();
+  block(recording_format::kFrame, std::string(bytes.substr(0, recording_format::kFrameStart)) +
+                                      coder_.encode(bytes.substr(recording_format::kFrameStart)));
   if (waiting_.size() > kMaxWaiting || std::chrono::steady_clock::now() - flushed_ > kMaxWait)
     flush();
 }

@@ -1,6 +1,9 @@
 #include "app/record/unpack.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -8,7 +11,10 @@
 #include "app/record/recording.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
+#include "app/run/stepped_run.h"
+#include "app/support/progress.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
@@ -152,9 +158,43 @@ void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
               "option.conflict"});
 }
 
-State<double> recorded_state(StateArchive memory, const Model<double>& model) {
+std::string memory_at(const Recording& recording, std::size_t n, const UnpackedRun& files) {
+  RecordedFrame frame = recording.frame(n);
+  if (!frame.memory.empty()) return frame.memory;
+  SimulateOptions options = files.options();
+  options.energy_bound = HUGE_VAL;
+  SimulatePlan prepared = files.prepare(options);
+  prepared.run.times.clear();
+  std::string memory;
+  RunWatch watch;
+  watch.look = [&](SteppedRun& run) {
+    if (run.step() == frame.step) memory = run.memory();
+  };
+  watch.tick = [](double) { check_interrupt(); };
+  const RunStart start{recording.frame(recording.keyframe(n)).memory, frame.step};
+  run_plan(prepared.input, prepared.run, watch, &start);
+  if (memory.empty())
+    throw InputError({{"", 0, fmt::format("step {} of the recording", frame.step),
+                       "this program does not reach it from the keyframe before",
+                       "read it with the twinarm that recorded it", "recording.numbers"}});
+  RecordedFrame repeated;
+  repeated.memory = memory;
+  take_state_from_memory(repeated);
+  if (repeated.q != frame.q || repeated.qd != frame.qd)
+    print_error(
+        "twinarm: step {} has other bits than recorded (by {}, this is {}): bit-exact replay needs "
+        "the same version on the same kind of processor\n",
+        frame.step, recording.header().program, kProgramVersion);
+  return memory;
+}
+
+State<double> recorded_state(RecordedFrame frame, const Model<double>& model) {
   State<double> x(model);
   try {
+    take_state_from_memory(frame);
+    StateArchive state;
+    state.visit(frame.q, frame.qd, frame.t);
+    StateArchive memory(state.bytes());
     visit_state(memory, model, x);
   } catch (const std::runtime_error& error) {
     throw InputError({{"", 0, "a frame of the recording", error.what(),
@@ -166,8 +206,8 @@ State<double> recorded_state(StateArchive memory, const Model<double>& model) {
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
   const Recording recording(file);
   for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
-  const RecordedFrame frame =
-      recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
+  const std::size_t n = at ? recording.at(*at, "--at") : recording.size() - 1;
+  const RecordedFrame frame = recording.frame(n);
   const auto files = std::make_shared<const UnpackedRun>(recording.header());
   SimulateOptions options = files->options();
   options.integrator = "semi-implicit";
@@ -176,12 +216,12 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   SimulatePlan prepared = files->prepare(options);
   prepared.run.integrator =
       find_integrator(recording.header().integrator).value_or(Integrator::semi_implicit);
-  RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
+  RecordedInstant instant{
+      std::move(prepared), simulation_memory(memory_at(recording, n, *files)), frame.t, {}, files};
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
     instant.energy_balance.push_back(
         {EnergyRowKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
-  set_pose(instant.prepared.input.robot,
-           recorded_state(instant.memory, instant.prepared.input.robot.model));
+  set_pose(instant.prepared.input.robot, recorded_state(frame, instant.prepared.input.robot.model));
   return instant;
 }
 

@@ -48,8 +48,13 @@ bool is_recording(const std::filesystem::path& file);
 // Rejects options that change model or state: a recording has both.
 void check_recorded(const RobotOptions& given, DiagnosticList& faults);
 
-// Of a frame. Throws InputError if it is of another model.
-State<double> recorded_state(StateArchive memory, const Model<double>& model);
+// Memory of frame n. Of a frame without it, the run is repeated from the keyframe before: with the
+// same bits only if this is the program that recorded it. `files`: of the recording. Throws
+// InputError.
+std::string memory_at(const Recording& recording, std::size_t n, const UnpackedRun& files);
+
+// State of a frame. Throws InputError if it is of another model.
+State<double> recorded_state(RecordedFrame frame, const Model<double>& model);
 
 // State of a recorded run, for inspection.
 struct RecordedInstant {

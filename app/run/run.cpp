@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/robot/robot_output.h"
 #include "app/support/text.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "solver/model/non_finite.h"
 #include "solver/support/number_text.h"
 
@@ -134,8 +137,9 @@ std::vector<double> run_values(const RobotInput& input, const State<double>& x,
   for (const NamedJoint& joint : input.coordinates.all()) add(coordinates_of(joint, x));
   for (const NamedJoint& joint : input.coordinates.all()) add(from_solver(joint, x, x.qd));
   for (std::size_t i = 1; i < input.model.parent.size(); ++i) add(k.X_WL[i].p);
-  values.push_back(kinetic_energy(input.model, x));
-  values.push_back(potential_energy(input.model, x));
+  Workspace<double> w(input.model);
+  kinematics(input.model, x, w);
+  add(std::array{kinetic_energy(input.model, x, w), potential_energy(input.model, w)});
   return values;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "solver/dynamics/energy_momentum.h"
@@ -81,10 +82,10 @@ void SteppedRun::begin() {
 
 std::vector<EnergyRow> SteppedRun::energy_balance() const {
   std::vector<EnergyRow> all = energy_balance_->rows();
-  const auto add = [&](const std::vector<EnergyRow>& rows) {
+  const auto add = [&](std::vector<EnergyRow> rows) {
     // Before the last row, `numerical`, which is the residual.
     for (const EnergyRow& row : rows) all.back().work -= row.work;
-    all.insert(all.end() - 1, rows.begin(), rows.end());
+    all.insert(all.end() - 1, std::move_iterator(rows.begin()), std::move_iterator(rows.end()));
   };
   if (contacts_) add(contacts_->rows());
   add(momentum_->energy_rows(sim_, contacts()));

@@ -45,13 +45,14 @@ class StateArchive {
       std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
   }
-  void visit(Vector3& v) {
-    for (int c = 0; c < 3; ++c) visit(v[c]);
-  }
+  void visit(Vector3& v) { visit_numbers(v.data(), 3); }
   template <class T>
   void visit(std::vector<T>& values) {
     resize(values, sizeof(T));
-    for (T& value : values) visit(value);
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+      visit_numbers(values.data(), values.size());
+    else
+      for (T& value : values) visit(value);
   }
   template <class T, std::size_t N>
   void visit(std::array<T, N>& values) {
@@ -101,6 +102,17 @@ class StateArchive {
   }
 
  private:
+  template <class T>
+  void visit_numbers(T* values, std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (!reads_) {
+      bytes_.append(reinterpret_cast<const char*>(values), bytes);
+      return;
+    }
+    need(bytes);
+    std::memcpy(values, bytes_.data() + at_, bytes);
+    at_ += bytes;
+  }
   void need(std::size_t bytes) const {
     if (bytes > bytes_.size() - at_) of_another_scene();
   }

@@ -148,10 +148,12 @@ class HostileFiles(ProgramTest):
     def test_a_recording_that_claims_more_than_it_holds(self):
         def claims(count):
             def change(found):
-                frame = form.decoded(form.FRAME, found[-2][1])
-                at = found[-2][1].index(struct.pack("<Q", len(frame[3])), 24)
-                bad = found[-2][1][:at] + struct.pack("<Q", count) + found[-2][1][at + 8:]
-                return [*found[:-2], ("F", bad)]
+                frame, = (payload for kind, payload in form.frame_blocks([(form.frames(found)[-1][0], b"")])
+                          if kind == "F")
+                start, *coded = form.parts_of_frame(frame)
+                plain = form.Coder().decoded(*coded)
+                bad = form.frame_payload(start, *form.Coder().encoded(struct.pack("<Q", count) + plain[8:]))
+                return [*found[:-2], ("S", form.compressed(b"")), ("F", bad)]
             return change
         for count in (1 << 60, (1 << 64) - 1, 1 << 32):
             self.reported("export", self.recorded(claims(count)), "--csv")

@@ -278,7 +278,7 @@ class Damage(RecordingCommand):
         for command in ("export", "replay", "inspect"):
             error = self.refused_as("recording.version", command, file)
             self.assertIn("version 7", error)
-            self.assertIn("versions 2 and 3", error)
+            self.assertIn("versions 2 to 4", error)
         file.write_bytes(b"not at all")
         self.refused_as("recording.form", "export", file)
         self.refused_as("file.missing", "export", self.folder / "none")

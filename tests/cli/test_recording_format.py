@@ -1,9 +1,11 @@
 """The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage."""
 import json
+import math
 import random
+import struct
 
 import recording_format as form
-from program import main, run
+from program import ROOT, SCENES, main, run
 from recording_command import BOXES, RecordingCommand, held
 
 TIED = held(4e6, 0) + BOXES.replace("step = 0.002", "")
@@ -16,13 +18,10 @@ class Bytes(RecordingCommand):
                            "--post-mortem", self.folder / "last.twinrec", code=3)
         data = file.read_bytes()
         found = form.blocks(data)
-        self.assertEqual({kind for kind, _ in found}, set("HDNMFEA"))
+        self.assertEqual({kind for kind, _ in found}, set("HDNMFEAS"))
         self.assertEqual(found[0][0], "H")
-        again = [found[0]]
-        for kind, payload in found[1:]:
-            if kind == "F":
-                payload = form.written(form.FRAME, form.decoded(form.FRAME, payload))
-            again.append((kind, payload))
+        coded = iter(form.frame_blocks(form.frames(found)))
+        again = [next(coded) if kind in "SF" else (kind, payload) for kind, payload in found]
         self.assertEqual(form.file_of(again), data)
 
     def test_the_header_describes_itself(self):
@@ -31,10 +30,10 @@ class Bytes(RecordingCommand):
         header = form.header(found)
         self.assertEqual(header["run"]["energy_bound"], "inf")
         self.assertEqual(len(header["files"]), sum(kind == "D" for kind, _ in found))
-        self.assertEqual(len(header["columns"]), len(form.decoded(form.FRAME, found[-2][1])[3]))
+        self.assertEqual(len(header["columns"]), len(form.frames(found)[-1][0][4]))
         self.assertEqual([field.split()[0] for field in header["frame"]],
-                         ["step", "t", "hash", "values", "pulls", "contacts", "rows", "works",
-                          "momentum_rows", "momenta", "memory"])
+                         ["step", "t", "q", "qd", "values", "pulls", "contacts", "works", "momenta", "rows",
+                          "momentum_rows"])
 
     def test_what_a_newer_program_adds_to_the_header_is_skipped(self):
         file = self.record(BOXES, "--duration", 0.02)
@@ -64,7 +63,7 @@ class Bytes(RecordingCommand):
         earlier = json.dumps(header | {"run": without(without(run_, "density"), "min_mass")})
         for text in (nested(8), whole.ljust(most), earlier):
             with_text(text)
-            self.assertEqual(self.exported(file)["format"], 3)
+            self.assertEqual(self.exported(file)["format"], 4)
         refused = {"9 deep": nested(9), "100,000 deep": "[" * 100_000, "32 MiB and a byte": whole.ljust(most + 1),
                    "no object": "[]", "cut short": whole[:-1],
                    "frames of another layout": json.dumps(header | {"frame": [*header["frame"], "heat float64 K"]}),
@@ -77,31 +76,47 @@ class Bytes(RecordingCommand):
                 with_text(text)
                 self.assertIn(str(file), self.refused_as("recording.header", "export", file))
 
-    def test_a_recording_of_version_2_is_read_and_replayed(self):
-        """As programs wrote it before headers described themselves."""
-        file = self.record(TIED, "--duration", 0.05, "--energy-bound", "inf")
-        before = self.exported(file)
-        file.write_bytes(form.as_version_2(file.read_bytes()))
-        self.assertEqual(before.pop("format"), 3)
-        after = self.exported(file)
-        self.assertEqual(after.pop("format"), 2)
-        self.assertEqual(after, before)
-        self.goes_on_with_the_same_bits(file, (0, 0.02))
+    def test_recordings_of_versions_2_and_3_are_read_inspected_and_replayed(self):
+        """As programs wrote them before frames were compressed, and before headers described themselves."""
+        file = self.record(TIED, "--duration", 0.0512, "--step", 1e-4, "--energy-bound", "inf", "--record-every", 64e-4)
+        data, before = file.read_bytes(), self.exported(file)
+        inspected = self.json_of("inspect", file, "--at", 0.02)
+        self.assertEqual(before.pop("format"), 4)
+        for frame, (_, memory) in zip(before["frames"], form.frames(form.blocks(data))):
+            frame["hash"] = f"{form.fnv(memory):016x}"
+        for version, made in ((3, form.file_of(form.as_version_3(data), 3)), (2, form.as_version_2(data))):
+            file.write_bytes(made)
+            after = self.exported(file)
+            self.assertEqual(after.pop("format"), version)
+            self.assertEqual(after, before)
+            self.assertEqual(self.json_of("inspect", file, "--at", 0.02), inspected)
+            self.goes_on_with_the_same_bits(file, (0, 0.02))
+
+    def test_recordings_that_an_older_program_wrote_are_read(self):
+        for file in sorted((ROOT / "tests/fuzz/seeds/recording").glob("*.twinrec")):
+            with self.subTest(file.name):
+                exported = self.exported(file)
+                payloads = [payload for kind, payload in form.blocks(file.read_bytes(), 2) if kind == "F"]
+                self.assertEqual([exported["format"], len(exported["frames"])], [2, len(payloads)])
+                for frame, payload in zip(exported["frames"], payloads):
+                    values = form.decoded(form.FRAME_3, payload)
+                    self.assertEqual([frame["step"], frame["t"], frame["values"]], [values[0], values[1], values[3]])
+                    self.assertEqual(frame["hash"], f"{values[2]:016x}")
 
     def test_a_file_made_by_hand_is_read(self):
         """The first frames of a recording, put together anew, with the end's own words."""
         file = self.record(BOXES, "--duration", 0.1)
         found = form.blocks(file.read_bytes())
-        keep = [b for b in found if b[0] in "HDNM"] + [b for b in found if b[0] == "F"][:5]
-        file.write_bytes(form.file_of(keep + [("E", "by hand, µ".encode())]))
+        keep = form.frames(found)[:5]
+        file.write_bytes(form.file_of([b for b in found if b[0] in "HDNM"] + form.frame_blocks(keep) +
+                                      [("E", "by hand, µ".encode())]))
         exported = self.exported(file)
         self.assertEqual(exported["end"], "by hand, µ")
         self.assertEqual(len(exported["frames"]), 5)
-        for frame, (_, payload) in zip(exported["frames"], keep[-5:]):
-            values = form.decoded(form.FRAME, payload)
+        for frame, (values, _) in zip(exported["frames"], keep):
             self.assertEqual(frame["step"], values[0])
-            self.assertEqual(frame["hash"], f"{values[2]:016x}")
-            self.assertEqual(frame["values"], values[3])
+            self.assertEqual(frame["hash"], f"{form.state_hash(values):016x}")
+            self.assertEqual(frame["values"], values[4])
             self.assertEqual(list(frame["energy_balance"].values()), values[7])
         self.goes_on_with_the_same_bits(file, (0,))
 
@@ -124,20 +139,72 @@ class Bytes(RecordingCommand):
         file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())
         frame = next(n for n, b in enumerate(found) if b[0] == "F")
+        start, lengths, kept = form.parts_of_frame(found[frame][1])
+        plain = form.Coder().decoded(lengths, kept)
         chance = random.Random(7)
-        for trial in range(40):
-            n = frame if trial % 2 else 0
-            payload = bytearray(found[n][1])
+        for trial in range(80):
+            n = frame if trial % 4 else 0
+            payload = bytearray([found[0][1], plain, lengths, kept][trial % 4])
             for _ in range(3):
                 payload[chance.randrange(len(payload))] = chance.choice((0, 1, 127, 255))
             if trial % 5 == 0:
                 payload = payload[:chance.randrange(len(payload))]
             made = list(found)
-            made[n] = (found[n][0], bytes(payload))
+            payload = bytes(payload)
+            coded = [(), form.Coder().encoded(payload), (payload, kept), (lengths, payload)][trial % 4]
+            made[n] = (found[n][0], form.frame_payload(start, *coded) if coded else payload)
             file.write_bytes(form.file_of(made))
             for form_of_export in ("--json", "--csv"):
                 result = run("export", file, form_of_export, errors="replace")
                 self.assertIn(result.returncode, (0, 2), f"{trial}: {result.stderr[:500]}")
+
+    def test_blocks_that_claim_to_be_larger_than_allowed_are_refused_before_they_are_decompressed(self):
+        """At most 256 MiB: of zeros, which compress to little, and as a number alone."""
+        file = self.record(BOXES, "--duration", 0.02)
+        found = form.blocks(file.read_bytes())
+        memory, frame = (next(n for n, block in enumerate(found) if block[0] == kind) for kind in "SF")
+        whole = form.compressed(b"")
+        zeros = form.compressed(bytes((256 << 20) + 1))
+        claimed = whole[:4] + bytes([0xe0]) + struct.pack("<Q", 1 << 60) + whole[6:]
+        counted = form.compressed(struct.pack("<Q", 1 << 60) + bytes(1000))
+        for n, start in ((memory, b""), (frame, found[frame][1][:16])):
+            for payload in (zeros, claimed, counted if n == frame else b"", b""):
+                made = list(found)
+                made[n] = (found[n][0], start + payload)
+                file.write_bytes(form.file_of(made))
+                self.assertIn("frame 0", self.refused_as("recording.numbers", "export", file))
+
+    def test_frames_without_a_keyframe_are_not_read(self):
+        file = self.record(BOXES, "--duration", 0.3, "--step", 0.001)
+        found = form.blocks(file.read_bytes())
+        keyframes = [n for n, block in enumerate(found) if block[0] == "S"]
+        self.assertEqual(len(keyframes), 5)  # 0, 64, .. of 300 steps
+        for gone, frames in ((2, 128), (4, 256)):
+            file.write_bytes(form.file_of([b for n, b in enumerate(found) if n != keyframes[gone]]))
+            exported = self.exported(file)
+            self.assertEqual(len(exported["frames"]), frames)
+            self.assertIn("keyframe", exported["notes"][0])
+        file.write_bytes(form.file_of([b for b in found if b[0] != "S"]))
+        self.refused_as("recording.cut-short", "export", file)
+
+    def test_a_state_that_this_program_does_not_repeat_bit_by_bit_is_reported_and_inspected(self):
+        """A velocity of one frame differs by a rounding, as if another version had recorded it."""
+        file = self.record(BOXES, "--duration", 0.02)
+        found = form.blocks(file.read_bytes())
+        frames = form.frames(found)
+        velocities, t = frames[3][0][3], frames[3][0][1]
+        velocities[2] = math.nextafter(velocities[2], 1)
+        file.write_bytes(form.file_of([b for b in found if b[0] in "HDNM"] + form.frame_blocks(frames) + found[-1:]))
+        answer = self.replayed(file, code=1)
+        self.assertEqual([answer["first_different"], answer["compared"] - answer["equal"]], [t, 1])
+        for command, code in (("replay", "--from"), 1), (("inspect", "--at"), 0):
+            self.assertIn("same version", self.twinarm(command[0], file, command[1], t, code=code).stderr)
+
+    def test_55_boxes_with_400_contact_points_take_less_than_15_kb_a_step(self):
+        scene = (SCENES / "pyramid.toml").read_text()
+        file = self.record(scene, "--duration", 0.3)
+        self.assertEqual(len(self.exported(file)["frames"][-1]["contacts"]), 400)
+        self.assertLess(file.stat().st_size, 300 * 15_000)
 
 
 if __name__ == "__main__":

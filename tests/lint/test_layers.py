@@ -26,6 +26,7 @@ OUTSIDE = {
     r"nlohmann/": "nlohmann_json::nlohmann_json", r"CLI/": "CLI11::CLI11", r"fmt/": "fmt::fmt",
     r"boost/": "Boost::headers", r"nlopt": "NLopt::nlopt_cxx", r"png\.h": "PNG::PNG",
     r"ft2build|freetype/": "Freetype::Freetype", r"zlib\.h": "ZLIB::ZLIB",
+    r"zstd\.h": "zstd::libzstd_shared",
 }
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"app/lab/server/connection.h", "app/render/gl/gl_objects.h", "benchmarks/drivers/command_line.h"}

@@ -54,10 +54,8 @@ def steps_of(scene):
 
 
 def frames(file):
-    """[(step, time, hash, values, memory)] of a recording."""
-    found = [recording_format.decoded(recording_format.FRAME, payload)
-             for kind, payload in recording_format.blocks(file.read_bytes()) if kind == "F"]
-    return [(f[0], f[1], f"{f[2]:016x}", f[3], f[-1]) for f in found]
+    """[(frame, memory)] of a recording (recording_format.py)."""
+    return recording_format.frames(recording_format.blocks(file.read_bytes()))
 
 
 def columns(file):
@@ -69,7 +67,7 @@ def golden(program, scene, steps, folder, environment=GENERIC):
     """The hash after so many steps."""
     file = pathlib.Path(folder) / f"{scene.stem}.twinrec"
     run(program, scene, steps, file, environment=environment)
-    step, _, found, _, _ = frames(file)[-1]
-    if step != steps:
-        raise RuntimeError(f"{scene.name}: {step} steps, not {steps}")
-    return found
+    frame, memory = frames(file)[-1]
+    if frame[0] != steps:
+        raise RuntimeError(f"{scene.name}: {frame[0]} steps, not {steps}")
+    return f"{recording_format.fnv(memory):016x}"

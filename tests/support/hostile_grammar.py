@@ -117,7 +117,7 @@ def change_recording(data, dice):
         found[at] = kind, changed("header.json" if kind == "H" else "a.toml", payload, dice)
     else:
         found[at] = kind, change_bytes(payload, dice)
-    return recording_format.file_of(found, dice.choice((3, 3, 3, 3, 3, 2, 9)))
+    return recording_format.file_of(found, dice.choice((4, 4, 4, 4, 4, 3, 2, 9)))
 
 
 def changed(name, data, dice):

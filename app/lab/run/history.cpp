@@ -165,7 +165,6 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
     if (one->recorded.step < first) continue;
     RecordedFrame frame = one->recorded;
     frame.memory.resize(frame.memory.size() - one->outside_bytes);
-    frame.hash = hash_of(frame.memory);
     for (std::uint32_t& row : frame.rows) row = writer.number_of(kName, names.rows[row]);
     for (std::uint32_t& row : frame.momentum_rows)
       row = writer.number_of(kMomentumName, names.momentum_rows[row]);

@@ -133,8 +133,8 @@ void SceneContacts::find_deepest_contact(const Simulation& simulation) {
 
 std::vector<EnergyRow> SceneContacts::rows() const {
   std::vector<EnergyRow> rows;
-  const auto add = [&](EnergyRowKind kind, const std::string& name, double work) {
-    if (work != 0) rows.push_back({kind, name, work});
+  const auto add = [&](EnergyRowKind kind, std::string name, double work) {
+    if (work != 0) rows.push_back({kind, std::move(name), work});
   };
   if (limits_)
     for (const JointLimits::Limit& limit : limits_->limits()) {

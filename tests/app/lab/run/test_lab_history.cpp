@@ -3,7 +3,7 @@
 
 namespace twinarm {
 
-TEST_CASE("lab run: a branch with the same input repeats the frames' hashes bit for bit") {
+TEST_CASE("lab run: a branch with the same input repeats the frames' memory bit for bit") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
   const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
@@ -28,7 +28,7 @@ TEST_CASE("lab run: a branch with the same input repeats the frames' hashes bit 
       REQUIRE(again.step(input ? input : &none));
     }
     const LabFrame frame = again.frame(s.names);
-    same += frame.recorded.hash == left.frame(n)->recorded.hash ? 1 : 0;
+    same += frame.recorded.memory == left.frame(n)->recorded.memory ? 1 : 0;
     CHECK(frame.recorded.works == left.frame(n)->recorded.works);
   }
   CHECK(left.size() > 30);
