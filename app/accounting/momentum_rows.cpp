@@ -79,7 +79,8 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
     for (const ContactWork& pair : contacts->contacts()->work()) {
       const ContactGeometry &a = contacts->contacts()->bodies().geometry(pair.a),
                             &b = contacts->contacts()->bodies().geometry(pair.b);
-      between(EnergyRowKind::contact, "contact/" + a.name + "-" + b.name,
+      const bool has_row = moves(a.body) != moves(b.body);
+      between(EnergyRowKind::contact, has_row ? "contact/" + a.name + "-" + b.name : "",
               {0, pair.impulse_W, pair.moment_W}, a.body, b.body);
     }
   if (outside && outside->has_acted()) {

@@ -12,9 +12,10 @@ namespace {
 
 constexpr int kLevel = 1;
 constexpr std::size_t kWord = sizeof(std::uint64_t);
-constexpr std::size_t kPeriod =
-    14;  // words of a RecordedContact: the contacts of a pair share a normal
-constexpr unsigned kRepeated = 9;  // instead of a length: the difference `kPeriod` words before
+// Instead of a length: the difference as many words before as a RecordedContact has. The contacts
+// of a pair share a normal.
+constexpr unsigned kRepeated = 9;
+constexpr std::size_t kPeriod = 14;
 
 [[noreturn]] void reject() {
   throw std::runtime_error("a block is not compressed as it should be");

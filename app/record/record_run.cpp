@@ -47,10 +47,6 @@ void add_decoded(std::vector<RecordedFile>& files, const std::filesystem::path& 
     files.back().bytes.clear();
 }
 
-void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
-  add_decoded(files, file, read_image);
-}
-
 // Files that a mesh file refers to: materials with their textures, glTF buffers.
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   constexpr int kMaxFiles = 1000;  // searched in the folder
@@ -83,7 +79,7 @@ void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& fil
   for (const LinkDescription& link : robot.links) {
     for (const VisualPart& part : link.visuals) {
       add_mesh(files, part.geometry);
-      add_picture(files, part.texture);
+      add_decoded(files, part.texture, read_image);
     }
     for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
   }
@@ -97,7 +93,7 @@ void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& file
   }
   for (const BodyDescription& body : scene.bodies) {
     add_mesh(files, body.shape);
-    add_picture(files, body.texture);
+    add_decoded(files, body.texture, read_image);
   }
   for (const CouplingDescription& coupling : scene.couplings)
     add_file(files, coupling.target.trace);
@@ -146,7 +142,6 @@ bool is_same(RecordedFrame a, RecordedFrame b) {
 Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan& prepared,
               std::string memory) {
   const RecordedFrame begin = recording.frame(first);
-  const RecordedFrame last = recording.frame(recording.size() - 1);
   Replay found;
   found.step = begin.step;
   found.from = found.to = begin.t;
@@ -180,7 +175,7 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
     ++next;
   };
   watch.tick = [](double) { check_interrupt(); };
-  const RunStart start{std::move(memory), last.step};
+  const RunStart start{std::move(memory), recording.frame(recording.size() - 1).step};
   run_plan(prepared.input, prepared.run, watch, &start);
   return found;
 }

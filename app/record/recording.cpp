@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <type_traits>
@@ -74,23 +73,18 @@ using Json = nlohmann::ordered_json;
 
 // Fields of a frame: name, type, unit; [] after a count of 8 bytes.
 Json frame_layout(std::uint32_t version) {
-  Json layout{"step int64", "t float64 s"};
-  const auto add = [&](std::initializer_list<const char*> fields) {
-    for (const char* field : fields) layout.push_back(field);
-  };
+  const char* contacts =
+      "contacts {a int32, b int32, depth float64 m, "
+      "point float64[3] m, normal float64[3], force float64[3] N, couple float64[3] N m}[]";
   if (version < 4)
-    add({"hash uint64"});
-  else
-    add({"q float64[]", "qd float64[]"});
-  add({"values float64[]", "pulls float64[][3]",
-       "contacts {a int32, b int32, depth float64 m, "
-       "point float64[3] m, normal float64[3], force float64[3] N, couple float64[3] N m}[]"});
-  if (version < 4)
-    add({"rows uint32[]", "works float64[] J", "momentum_rows uint32[]", "momenta float64[][3]",
-         "memory uint8[]"});
-  else
-    add({"works float64[] J", "momenta float64[][3]", "rows uint32[]", "momentum_rows uint32[]"});
-  return layout;
+    return {"step int64",           "t float64 s",        "hash uint64",
+            "values float64[]",     "pulls float64[][3]", contacts,
+            "rows uint32[]",        "works float64[] J",  "momentum_rows uint32[]",
+            "momenta float64[][3]", "memory uint8[]"};
+  return {"step int64",    "t float64 s",           "q float64[]",
+          "qd float64[]",  "values float64[]",      "pulls float64[][3]",
+          contacts,        "works float64[] J",     "momenta float64[][3]",
+          "rows uint32[]", "momentum_rows uint32[]"};
 }
 
 // Text that is not UTF-8 (paths, command lines) becomes a list of bytes.
@@ -226,10 +220,6 @@ std::uint64_t hash_of(const RecordedFrame& frame, std::uint32_t version) {
   std::vector<double> q = frame.q, qd = frame.qd;
   state.visit(t, q, qd);
   return hash_of(state.bytes());
-}
-
-void take_state_from_memory(RecordedFrame& frame) {
-  if (!frame.memory.empty()) simulation_memory(frame.memory).visit(frame.q, frame.qd);
 }
 
 std::uint32_t checksum(const char* bytes, std::size_t count) {

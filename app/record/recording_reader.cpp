@@ -26,6 +26,10 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
 
 }  // namespace
 
+void take_state_from_memory(RecordedFrame& frame) {
+  if (!frame.memory.empty()) simulation_memory(frame.memory).visit(frame.q, frame.qd);
+}
+
 Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored)) {

@@ -6,7 +6,7 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMaxWaiting = 1 << 18;  // bytes
+constexpr std::size_t kMaxWaiting = 1 << 15;  // bytes
 constexpr std::chrono::milliseconds kMaxWait{250};
 
 std::string bytes_of(std::uint32_t number) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cstring>
 
 #include "app/scene/read/read_scene.h"
 #include "solver/support/number_text.h"
@@ -133,22 +134,26 @@ void SceneContacts::find_deepest_contact(const Simulation& simulation) {
 
 std::vector<EnergyRow> SceneContacts::rows() const {
   std::vector<EnergyRow> rows;
-  const auto add = [&](EnergyRowKind kind, std::string name, double work) {
-    if (work != 0) rows.push_back({kind, std::move(name), work});
+  const auto add = [&](EnergyRowKind kind, const std::string& of, const char* part, double work) {
+    if (work == 0) return;
+    std::string& name = rows.emplace_back(EnergyRow{kind, {}, work}).name;
+    name.reserve(of.size() + std::strlen(part));
+    name.append(of).append(part);
   };
   if (limits_)
     for (const JointLimits::Limit& limit : limits_->limits()) {
       const auto body = static_cast<std::size_t>(limit.body);
-      add(EnergyRowKind::joint_limit, "joint/" + scene_.model.joint_name[body] + "/limit",
+      add(EnergyRowKind::joint_limit, "joint/" + scene_.model.joint_name[body], "/limit",
           limit.work);
     }
   if (!contacts_) return rows;
+  rows.reserve(rows.size() + 3 * contacts_->work().size());
   for (const ContactWork& pair : contacts_->work()) {
     const std::string name = "contact/" + contacts_->bodies().geometry(pair.a).name + "-" +
                              contacts_->bodies().geometry(pair.b).name;
-    add(EnergyRowKind::contact_normal, name + "/normal", pair.normal);
-    add(EnergyRowKind::contact_friction, name + "/friction", pair.friction);
-    add(EnergyRowKind::contact_impact, name + "/impact", pair.impact);
+    add(EnergyRowKind::contact_normal, name, "/normal", pair.normal);
+    add(EnergyRowKind::contact_friction, name, "/friction", pair.friction);
+    add(EnergyRowKind::contact_impact, name, "/impact", pair.impact);
   }
   return rows;
 }
