@@ -17,7 +17,8 @@ BUILD = None
 PRODUCT = ("solver", "collision", "coupling", "benchmarks", "app")
 MAX_FILES = 25
 # Programs: folders without a library, and what they may include besides their own files.
-PROGRAMS = {"app/command/main": "app/command", "benchmarks": "solver/stepping"}
+PROGRAMS = {"app/command/main": "app/command", "benchmarks": "solver/stepping",
+            "benchmarks/peers": "benchmarks/drivers"}
 
 # Outside libraries: how their headers are spelled, and the target that a folder links to see them.
 OUTSIDE = {
