@@ -14,7 +14,8 @@
 namespace twinarm::python {
 
 namespace py = pybind11;
-using Array = py::array_t<double, py::array::c_style>;
+using Array =  // contiguous and aligned
+    py::array_t<double, int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_}>;
 
 // pybind11 asks a class for memory when an object is first used that has no value, as C.__new__(C)
 // makes it. Values of this base are made by std::make_shared, which does not.

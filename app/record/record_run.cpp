@@ -246,8 +246,8 @@ void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,
-                         const SimulatePlan& prepared, double every)
-    : writer_(file, std::move(header)), prepared_(prepared), every_(every) {}
+                         const SimulatePlan& prepared, double every, long keyframe_every)
+    : writer_(file, std::move(header), keyframe_every), prepared_(prepared), every_(every) {}
 
 void RunRecorder::look(SteppedRun& run) {
   const double t = run.simulation().state().t, slack = 1e-6 * std::min(prepared_.run.step, 1e-3);

@@ -30,9 +30,10 @@ void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
 // RunWatch::look of a recorded run.
 class RunRecorder {
  public:
-  // `every` 0: each step.
+  // `every` 0: each step. keyframe_every: as of RecordingWriter.
   RunRecorder(const std::filesystem::path& file, RecordingHeader header,
-              const SimulatePlan& prepared, double every = 0);
+              const SimulatePlan& prepared, double every = 0,
+              long keyframe_every = recording_format::kKeyframeEvery);
   void look(SteppedRun& run);
   void write(SteppedRun& run);
   void alarm(const std::string& words) { writer_.alarm(words); }

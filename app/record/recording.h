@@ -103,16 +103,16 @@ std::uint32_t checksum(const char* bytes, std::size_t count);
 
 class RecordingWriter {
  public:
-  // Throws InputError if the file cannot be written.
-  RecordingWriter(const std::filesystem::path& file, RecordingHeader header);
+  // Throws InputError if the file cannot be written. keyframe_every [steps]: 1 where forces or
+  // targets from outside the scene act, so that no step can be repeated from an earlier one.
+  RecordingWriter(const std::filesystem::path& file, RecordingHeader header,
+                  long keyframe_every = recording_format::kKeyframeEvery);
   // Index of a row of the energy or momentum balance (`kind`: kName or kMomentumName of
   // recording_format); writes new names.
   std::uint32_t number_of(char kind, const std::string& row);
   void alarm(const std::string& words);
   // Whether the frame of this step becomes a keyframe, and so needs its memory.
-  bool needs_memory(long step) const {
-    return !keyframe_ || step - *keyframe_ >= recording_format::kKeyframeEvery;
-  }
+  bool needs_memory(long step) const { return !keyframe_ || step - *keyframe_ >= keyframe_every_; }
   void write(RecordedFrame& frame);
   // Writes how the run ended and renames the file. Throws InputError.
   void finish(const std::string& how);
@@ -126,6 +126,7 @@ class RecordingWriter {
   std::chrono::steady_clock::time_point flushed_;
   std::map<char, std::unordered_map<std::string, std::uint32_t>> names_;  // by kind
   FrameCoder coder_;
+  long keyframe_every_;
   std::optional<long> keyframe_;  // step of the last one
 };
 

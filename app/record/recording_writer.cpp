@@ -29,9 +29,11 @@ std::filesystem::path part_of(const std::filesystem::path& file) {
   return file.string() + ".part";
 }
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHeader header)
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHeader header,
+                                 long keyframe_every)
     : out_(checked_place(file), part_of(file), UnfinishedFile::Remains::keep),
-      flushed_(std::chrono::steady_clock::now()) {
+      flushed_(std::chrono::steady_clock::now()),
+      keyframe_every_(keyframe_every) {
   waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
   block(recording_format::kHeader, header_text(header));
   for (const RecordedFile& read : header.files) block(recording_format::kFile, read.bytes);

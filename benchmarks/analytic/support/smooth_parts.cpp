@@ -84,9 +84,22 @@ std::vector<double> squared_frequencies_of(ModelRef model, StateRef x) {
   return all;
 }
 
+// By M x = mu K x, mu = 1 / w^2: exact to rounding for the slow ones, as those of M^-1 K are not.
 std::vector<double> small_frequencies(ModelRef model, StateRef x) {
-  std::vector<double> all = squared_frequencies_of(model, x);
-  for (double& w : all) w = std::sqrt(w);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto nv = static_cast<Eigen::Index>(model.nv);
+  const std::vector<double> at_rest(model.nv);
+  const Forces<double> forces(model);
+  Workspace<double> w(model);
+  MatrixWorkspace<double> m(model);
+  RowMajor rates(nv, 2 * nv);
+  rnea(model, x, at_rest, forces.f_ext, w);
+  rnea_derivatives(model, x, forces, at_rest, w, m,
+                   {rates.data(), static_cast<std::size_t>(rates.size())});
+  std::vector<double> all;
+  for (const double mu : generalized_eigenvalues(mass_matrix(model, x), rates.leftCols(nv)))
+    all.push_back(1 / std::sqrt(mu));
+  std::ranges::reverse(all);
   return all;
 }
 

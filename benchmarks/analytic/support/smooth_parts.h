@@ -77,7 +77,7 @@ std::vector<double> inverse_dynamics(const Model<double>& model, const State<dou
 Vector3 reaction(ModelRef model, StateRef x);
 // Eigenvalues of -d(qdd)/dq, ascending: squared frequencies, negative if unstable.
 std::vector<double> squared_frequencies_of(ModelRef model, StateRef x);
-// Undamped frequencies about a state at rest, ascending [rad/s].
+// Undamped frequencies about a stable state of rest, ascending [rad/s].
 std::vector<double> small_frequencies(ModelRef model, StateRef x);
 
 // Of a free body 1: quaternion w, x, y, z, and angular velocity in body axes.
