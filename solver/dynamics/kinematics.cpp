@@ -3,7 +3,6 @@
 #include "solver/dynamics/dynamics.h"
 
 namespace twinarm {
-
 Kinematics::Kinematics(const Model<double>& model)
     : X_WL(model.parent.size()),
       w_WL(model.parent.size(), Vector3::Zero()),
@@ -24,15 +23,15 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
   k.a_bias[0] = {{}, -model.gravity};
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const auto p = static_cast<std::size_t>(model.parent[i]);
-    const Mat3<double> R_WB = transpose(w.X0[i].E);
-    const auto in_world = [&](const Vec3<double>& a_B) { return to_eigen(R_WB * a_B); };
     k.a_bias[i] = w.Xup[i] * k.a_bias[p] + w.c[i];
-    k.R_WB[i] = to_eigen(R_WB);
-    k.X_WL[i] = {to_eigen(R_WB * model.R_BL[i]), to_eigen(w.X0[i].r)};
-    k.w_WL[i] = in_world(w.v[i].w);
-    k.v_WLo[i] = in_world(w.v[i].v);
+    k.R_WB[i] = to_eigen(w.X0[i].E).transpose();
+    k.X_WL[i].p = to_eigen(w.X0[i].r);
+    k.X_WL[i].R = k.R_WB[i] * to_eigen(model.R_BL[i]);
+    k.w_WL[i] = k.R_WB[i] * to_eigen(w.v[i].w);
+    k.v_WLo[i] = k.R_WB[i] * to_eigen(w.v[i].v);
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
-      k.columns_[dof] = {in_world(w.S_[dof].w), in_world(w.S_[dof].v)};
+      k.columns_[dof] = {k.R_WB[i].lazyProduct(to_eigen(w.S_[dof].w)),
+                         k.R_WB[i].lazyProduct(to_eigen(w.S_[dof].v))};
   }
 }
 
