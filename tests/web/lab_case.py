@@ -75,8 +75,8 @@ class LabCase(unittest.TestCase):
         self.page.wait_for(f"!!({expression})")
 
     def click(self, text, within="document"):
-        """Clicks a button by its text."""
-        self.until(f"[...{within}.querySelectorAll('button')].some(b => b.offsetParent && "
+        """Clicks a button by its text, once it is shown and enabled."""
+        self.until(f"[...{within}.querySelectorAll('button')].some(b => b.offsetParent && !b.disabled && "
                    f"b.textContent.trim().startsWith({text!r}))")
         self.value(f"[...{within}.querySelectorAll('button')].find(b => b.offsetParent && "
                    f"b.textContent.trim().startsWith({text!r})).click()")
