@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <memory>
@@ -72,7 +73,7 @@ void FrameCoder::end() {
 std::string FrameCoder::encode(std::string_view frame) {
   begin(frame.size());
   if (!words_.empty()) words_.back() = 0;  // padding
-  std::memcpy(words_.data(), frame.data(), frame.size());
+  std::ranges::copy(frame, reinterpret_cast<char*>(words_.data()));
   const std::uint64_t size = frame.size();
   std::string lengths(kWord + (words_.size() + 1) / 2, '\0');
   std::memcpy(lengths.data(), &size, kWord);
@@ -122,8 +123,7 @@ std::string FrameCoder::decode(std::string_view bytes, std::size_t max) {
     words_[i] = prediction(i) + difference_of(differences_[i]);
   }
   if (left > 0) reject();
-  std::string frame(size, '\0');
-  std::memcpy(frame.data(), words_.data(), size);
+  std::string frame(reinterpret_cast<const char*>(words_.data()), size);
   end();
   return frame;
 }

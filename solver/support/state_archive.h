@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -110,7 +111,7 @@ class StateArchive {
       return;
     }
     need(bytes);
-    std::memcpy(values, bytes_.data() + at_, bytes);
+    std::copy_n(bytes_.data() + at_, bytes, reinterpret_cast<char*>(values));
     at_ += bytes;
   }
   void need(std::size_t bytes) const {
