@@ -2,16 +2,13 @@
 import os
 import pathlib
 import re
-import unittest
 
-import program
 from program import ROOT, SCENES, ProgramTest, main
 
 ROBOT = ROOT / "assets/robots/puma560/puma560.urdf"
 MAX_RELOCATIONS = 15000  # 1 us each where symbols are looked up; 70,000 with all libraries
 
 
-@unittest.skipIf("san" in program.PROGRAM, "with sanitizers all is linked")
 class Start(ProgramTest):
     def linker_reports(self, kind, *words):
         self.twinarm(*words, env=dict(os.environ, LD_DEBUG=kind, LD_DEBUG_OUTPUT=str(self.folder / "linker")))
