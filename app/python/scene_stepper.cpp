@@ -50,7 +50,8 @@ class SceneStepper : public OnlyConstructed {
     if (!record.is_none()) {
       RecordingHeader header = header_of(options_, plan_, {"twinarm.SceneSimulation"});
       header.duration = 1;  // as in the options; the frames go on
-      recorder_.emplace(path_of(record), std::move(header), plan_, 0, 1);
+      recorder_.emplace(path_of(record), std::move(header), plan_, /*every=*/0,
+                        /*keyframe_every=*/1);
     }
     watch_.look = [this](SteppedRun& view) {
       if (recorder_) recorder_->look(view);

@@ -47,7 +47,7 @@ def decompressed(data):
 
 
 class Coder:
-    """Frames as differences of their words of 8 bytes; anew for each keyframe."""
+    """Frames as differences of their words of 8 bytes; the differences begin at each keyframe."""
 
     def __init__(self):
         self.before, self.earlier = [], []

@@ -159,7 +159,7 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
   // Half a step beyond the last one, which then ends on the time grid.
   header.duration = newest()->recorded.t + 0.5 * header.step;
   header.run.duration = header.duration;
-  RecordingWriter writer(file, std::move(header), 1);
+  RecordingWriter writer(file, std::move(header), /*keyframe_every=*/1);
   Saved saved;
   for (const Frame& one : frames_) {
     if (one->recorded.step < first) continue;
