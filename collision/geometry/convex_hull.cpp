@@ -17,8 +17,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -81,8 +79,9 @@ Loops run_qhull(std::span<const Vector3> points, double tolerance) {
   for (const Vector3& p : points) flat.insert(flat.end(), {p.x(), p.y(), p.z()});
   QhullRun run;
   qhT* const qh = &run.state;  // qhull's macros use this name
-  // Without a decimal point, which qhull reads by the locale.
-  std::string command = "qhull C-" + std::to_string(std::llround(tolerance * 1e15)) + "e-15";
+  // Without a decimal point, which qhull reads by the locale. FQ: print the command instead of a
+  // summary, which would check all lists.
+  std::string command = "qhull C-" + std::to_string(std::llround(tolerance * 1e15)) + "e-15 FQ";
   constexpr std::size_t kManyPoints = 10000;
   // Depth first and without qhull's own outer planes: half the time. Facets may merge in another
   // way.
@@ -119,7 +118,7 @@ class PointTree {
   }
 
  private:
-  static constexpr std::size_t kLeafSize = 32;
+  static constexpr std::size_t kLeafSize = 128;
   struct Node {
     Matrix3 axes;
     Aabb box;  // along the axes
@@ -229,13 +228,14 @@ std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
   const auto key = [](const Vector3& n, std::size_t face) {
     return std::tuple(n.x(), n.y(), n.z(), face);
   };
-  std::set<std::tuple<double, double, double, std::size_t>> faces;
-  for (std::size_t f = 0; f < hull.normals.size(); ++f) faces.insert(key(hull.normals[f], f));
+  std::vector<std::tuple<double, double, double, std::size_t>> faces;
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) faces.push_back(key(hull.normals[f], f));
+  std::sort(faces.begin(), faces.end());
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
     if (is_done[f]) continue;
     const Vector3& n = hull.normals[f];
     slabs.push_back({n, 0, hull.offsets[f], false});
-    const auto found = faces.lower_bound(key(-n, f + 1));
+    const auto found = std::lower_bound(faces.begin(), faces.end(), key(-n, f + 1));
     const std::size_t g = found == faces.end() ? f : std::get<3>(*found);
     if (g == f || hull.normals[g] != -n) continue;
     slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
@@ -249,16 +249,20 @@ std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
 // Each edge is traversed once by each of its two faces, in opposite directions.
 Polytope polyhedron(ConvexHull hull) {
   Polytope polytope;
-  std::map<std::pair<int, int>, int> face_of;  // by directed edge
+  std::vector<std::tuple<int, int, bool, int>> edges;  // smaller vertex, larger, reversed, face
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
     const std::vector<int>& loop = hull.faces[f];
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      face_of[{loop[i], loop[(i + 1) % loop.size()]}] = static_cast<int>(f);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+      edges.emplace_back(a, b, a != loop[i], static_cast<int>(f));
+    }
   }
-  for (const auto& [edge, face] : face_of) {
-    const auto opposite = face_of.find({edge.second, edge.first});
-    if (edge.first < edge.second && opposite != face_of.end())
-      polytope.edges.push_back({edge.first, edge.second, face, opposite->second});
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const auto& [a, b, is_reversed, face] = edges[i - 1];
+    const auto& [c, d, is_opposite, other] = edges[i];
+    if (a == c && b == d && !is_reversed && is_opposite)
+      polytope.edges.push_back({a, b, face, other});
   }
   polytope.slabs = slabs_of(hull);
   polytope.hull = std::move(hull);

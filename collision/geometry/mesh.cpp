@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace twinarm {
@@ -24,15 +25,31 @@ std::size_t support_index(const std::vector<Vector3>& points, const Vector3& d) 
   return best;
 }
 
+// The edges that start in vertex a end in ends[first[a]] to ends[first[a + 1]], in order.
 bool is_closed(const TriangleMesh& mesh) {
-  std::vector<std::pair<int, int>> edges;
-  for (const auto& [a, b, c] : mesh.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
-  std::sort(edges.begin(), edges.end());
-  const bool once = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-  return !edges.empty() && once && std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return edge.first != edge.second &&
-           std::binary_search(edges.begin(), edges.end(), std::pair(edge.second, edge.first));
-  });
+  std::vector<std::ptrdiff_t> first(mesh.vertices.size() + 1, 0);
+  for (const auto& t : mesh.triangles)
+    for (const int a : t) ++first[a + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::ptrdiff_t> next = first;
+  std::vector<int> ends(3 * mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    ends[next[a]++] = b, ends[next[b]++] = c, ends[next[c]++] = a;
+  const auto from = [&](int a) {
+    return std::pair(ends.begin() + first[a], ends.begin() + next[a]);
+  };
+  const auto count = static_cast<int>(mesh.vertices.size());
+  for (int a = 0; a < count; ++a) {
+    const auto [begin, end] = from(a);
+    std::sort(begin, end);
+    if (std::adjacent_find(begin, end) != end) return false;
+  }
+  for (int a = 0; a < count; ++a)
+    for (std::ptrdiff_t i = first[a]; i < next[a]; ++i) {
+      const auto [begin, end] = from(ends[i]);
+      if (ends[i] == a || !std::binary_search(begin, end, a)) return false;
+    }
+  return !ends.empty();
 }
 
 SupportVertices::SupportVertices(std::span<const Vector3> points) {

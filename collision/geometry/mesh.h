@@ -24,7 +24,7 @@ Vector3 support_point(const std::vector<Vector3>& points, const Vector3& d);
 std::size_t support_index(const std::vector<Vector3>& points, const Vector3& d);
 
 // Whether each directed edge and its reverse occur exactly once: no border, consistent orientation.
-// O(n log n).
+// O(n log d), d edges at a vertex.
 bool is_closed(const TriangleMesh& mesh);
 
 // Vertices of a hull as a structure of arrays, for a vectorised support function.

@@ -1,10 +1,12 @@
-// All parts of a model in one mesh; vertices with equal coordinates are merged. O(n log n).
+// All parts of a model in one mesh; vertices with equal coordinates are merged. O(n).
 #include "collision/mesh_files/mesh_file.h"
 
+#include <array>
 #include <cmath>
-#include <map>
+#include <functional>
 #include <string>
-#include <tuple>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -35,14 +37,19 @@ class Welder {
   int index_of(const std::array<float, 3>& v) {
     const Vector3 p = scale_ * Vector3(v[0], v[1], v[2]);
     // Adding zero makes -0 and 0 the same vertex.
-    const auto key = std::tuple(p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
+    const std::array<double, 3> key{p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
     const auto [at, is_new] = index_.try_emplace(key, static_cast<int>(mesh.vertices.size()));
     if (is_new) mesh.vertices.push_back(p);
     return at->second;
   }
 
   double scale_;
-  std::map<std::tuple<double, double, double>, int> index_;
+  struct HashOfBytes {
+    std::size_t operator()(const std::array<double, 3>& p) const {
+      return std::hash<std::string_view>()({reinterpret_cast<const char*>(p.data()), sizeof p});
+    }
+  };
+  std::unordered_map<std::array<double, 3>, int, HashOfBytes> index_;
 };
 
 }  // namespace
