@@ -35,7 +35,8 @@ EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWre
       k_(input.model),
       w_(input.model),
       start_(input.state.x),
-      now_(start_) {
+      now_(start_),
+      at_start_(energies(start_)) {
   find_rows(integrator, others_want_inner);
   power_now_ = powers(start_, Side::after);
 }
@@ -149,8 +150,10 @@ void EnergyBalance::serialize(StateArchive& memory) {
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
   for (EnergyRow& row : integrals_) memory.visit(row.work);
   memory.visit_fixed(implicit_);
+  if (!memory.reads()) return;
   // Recomputed: the gains of a branch may differ.
-  if (memory.reads()) power_now_ = powers(now_, Side::after);
+  power_now_ = powers(now_, Side::after);
+  at_start_ = energies(start_);
 }
 
 double EnergyBalance::elastic_energy(std::size_t c, const State<double>& x) const {
@@ -173,8 +176,9 @@ EnergyBalance::Energies EnergyBalance::energies(const State<double>& x) const {
 }
 
 std::vector<EnergyRow> EnergyBalance::rows() const {
-  const Energies start = energies(start_), now = energies(now_);
-  std::vector<EnergyRow> rows{{EnergyRowKind::gravity, "gravity", start.potential - now.potential}};
+  const Energies now = energies(now_);
+  std::vector<EnergyRow> rows{
+      {EnergyRowKind::gravity, "gravity", at_start_.potential - now.potential}};
   auto integral = integrals_.begin();
   for (const Actuator& actuator : actuators_) {
     if (!actuator.is_exact) {
@@ -201,7 +205,7 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
                       "coupling/" + spec.name + "/" + name_of(third),
                       implicit_[c] - spring - damper->work});
   }
-  double residual = now.kinetic - start.kinetic;
+  double residual = now.kinetic - at_start_.kinetic;
   for (const EnergyRow& row : rows) residual -= row.work;
   rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});
   return rows;

@@ -80,6 +80,7 @@ class EnergyBalance {
   mutable Kinematics k_;
   mutable Workspace<double> w_;
   State<double> start_, now_;
+  Energies at_start_;
   std::vector<double> power_now_;
 };
 

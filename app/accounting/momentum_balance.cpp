@@ -23,6 +23,7 @@ MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<Give
       k_(input.model),
       k_end_(input.model),
       w_(input.model) {
+  at_start_ = contents(moved_, start_);
   find_trees();
   sums_.resize(tree(trees_.size()));
 }
@@ -54,6 +55,7 @@ void MomentumBalance::serialize(StateArchive& memory) {
   limit_separation_.serialize(memory);
   memory.visit_fixed(mimics_);
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
+  if (memory.reads()) at_start_ = contents(moved_, start_);
 }
 
 void MomentumBalance::add_step(double h, std::span<const double> weights,

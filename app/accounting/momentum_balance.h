@@ -93,6 +93,7 @@ class MomentumBalance {
   std::vector<double> mimics_;
   EnergyMomentum separation_, limit_separation_;  // of contacts; of steps with limits only
   State<double> start_, now_;
+  EnergyMomentum at_start_;
   Kinematics k_, k_end_;
   mutable Workspace<double> w_;
 };

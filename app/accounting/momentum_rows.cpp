@@ -104,7 +104,7 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
         limit_separation_);
   for (std::size_t t = 0; t < trees_.size(); ++t)
     add(EnergyRowKind::tree, "joint/" + trees_[t].joint, through[t]);
-  EnergyMomentum residual = contents(moved_, now_) - contents(moved_, start_);
+  EnergyMomentum residual = contents(moved_, now_) - at_start_;
   for (const MomentumRow& row : rows) residual += EnergyMomentum{0, -row.linear, -row.angular};
   add(EnergyRowKind::numerical, kNumericalRow, residual);
   return rows;

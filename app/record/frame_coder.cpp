@@ -73,23 +73,30 @@ void FrameCoder::end() {
 std::string FrameCoder::encode(std::string_view frame) {
   begin(frame.size());
   if (!words_.empty()) words_.back() = 0;  // padding
-  std::ranges::copy(frame, reinterpret_cast<char*>(words_.data()));
+  std::copy_n(frame.data(), frame.size(), reinterpret_cast<char*>(words_.data()));
+  const std::size_t count = words_.size();
+  for (std::size_t i = 0; i < count; ++i) differences_[i] = zigzag(words_[i] - prediction(i));
   const std::uint64_t size = frame.size();
-  std::string lengths(kWord + (words_.size() + 1) / 2, '\0');
+  std::string lengths(kWord + (count + 1) / 2, '\0');
   std::memcpy(lengths.data(), &size, kWord);
-  kept_.resize(kWord * (words_.size() + 1));
-  char* kept = kept_.data();
-  for (std::size_t i = 0; i < words_.size(); ++i) {
-    const std::uint64_t difference = differences_[i] = zigzag(words_[i] - prediction(i));
-    auto length = static_cast<unsigned>(std::bit_width(difference) + 7) / 8;
-    std::memcpy(kept, &difference, kWord);
-    if (length > 1 && i >= kPeriod && difference == differences_[i - kPeriod])
-      length = kRepeated;
-    else
-      kept += length;
-    char& pair = lengths[kWord + i / 2];
-    pair = static_cast<char>(pair | (length << (4 * (i % 2))));
+  kept_.resize(kWord * (count + 1));
+  const std::uint64_t* const differences = differences_.data();
+  char *kept = kept_.data(), *pair = lengths.data() + kWord;
+  // Without branches, which would be mispredicted.
+  const auto keep = [&](std::size_t i) {
+    const auto length = static_cast<unsigned>(std::bit_width(differences[i]) + 7) / 8;
+    const std::size_t before = i < kPeriod ? i : i - kPeriod;
+    const bool repeats = (before < i) & (length > 1) & (differences[i] == differences[before]);
+    std::memcpy(kept, &differences[i], kWord);
+    kept += repeats ? 0 : length;
+    return repeats ? kRepeated : length;
+  };
+  std::size_t i = 0;
+  for (; i + 1 < count; i += 2) {
+    const unsigned first = keep(i), second = keep(i + 1);
+    *pair++ = static_cast<char>(first | (second << 4));
   }
+  if (i < count) *pair = static_cast<char>(keep(i));
   end();
   return compressed(lengths).append(kept_.data(), kept);
 }

@@ -118,14 +118,21 @@ class RecordingWriter {
   void finish(const std::string& how);
 
  private:
-  void block(char kind, const std::string& payload);
+  void block(char kind, std::string_view start, std::string_view rest = {});  // payload: both
   void flush();
 
   UnfinishedFile out_;
   std::string waiting_;
   std::chrono::steady_clock::time_point flushed_;
-  std::map<char, std::unordered_map<std::string, std::uint32_t>> names_;  // by kind
+  struct Names {
+    std::unordered_map<std::string, std::uint32_t> numbers;
+    std::vector<std::string> names;    // by number
+    std::vector<std::uint32_t> after;  // number of the row that came next, by number
+    std::uint32_t last = 0;
+  };
+  std::map<char, Names> names_;  // by kind
   FrameCoder coder_;
+  std::size_t frame_bytes_ = 0;  // of the last one
   long keyframe_every_;
   std::optional<long> keyframe_;  // step of the last one
 };

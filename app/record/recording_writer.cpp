@@ -41,10 +41,21 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHea
 }
 
 std::uint32_t RecordingWriter::number_of(char kind, const std::string& row) {
-  auto& names = names_[kind];
-  const auto [place, is_new] = names.try_emplace(row, static_cast<std::uint32_t>(names.size()));
-  if (is_new) block(kind, row);
-  return place->second;
+  Names& known = names_[kind];
+  // Most rows come in the order of the frame before.
+  std::uint32_t number = known.names.empty() ? 0 : known.after[known.last];
+  if (known.names.empty() || known.names[number] != row) {
+    const auto [place, is_new] =
+        known.numbers.try_emplace(row, static_cast<std::uint32_t>(known.names.size()));
+    number = place->second;
+    if (is_new) {
+      known.names.push_back(row);
+      known.after.push_back(0);
+      block(kind, row);
+    }
+    known.after[known.last] = number;
+  }
+  return known.last = number;
 }
 
 void RecordingWriter::alarm(const std::string& words) {
@@ -59,10 +70,12 @@ void RecordingWriter::write(RecordedFrame& frame) {
   }
   take_state_from_memory(frame);
   StateArchive archive;
+  archive.reserve(frame_bytes_ + frame_bytes_ / 8);
   visit(archive, frame);
   const std::string_view bytes = archive.bytes();
-  block(recording_format::kFrame, std::string(bytes.substr(0, recording_format::kFrameStart)) +
-                                      coder_.encode(bytes.substr(recording_format::kFrameStart)));
+  frame_bytes_ = bytes.size();
+  block(recording_format::kFrame, bytes.substr(0, recording_format::kFrameStart),
+        coder_.encode(bytes.substr(recording_format::kFrameStart)));
   if (waiting_.size() > kMaxWaiting || std::chrono::steady_clock::now() - flushed_ > kMaxWait)
     flush();
 }
@@ -73,11 +86,11 @@ void RecordingWriter::finish(const std::string& how) {
   out_.finish();
 }
 
-void RecordingWriter::block(char kind, const std::string& payload) {
+void RecordingWriter::block(char kind, std::string_view start, std::string_view rest) {
   const std::size_t begin = waiting_.size();
   waiting_ += kind;
-  waiting_ += bytes_of(static_cast<std::uint32_t>(payload.size()));
-  waiting_ += payload;
+  waiting_ += bytes_of(static_cast<std::uint32_t>(start.size() + rest.size()));
+  waiting_.append(start).append(rest);
   waiting_ += bytes_of(checksum(waiting_.data() + begin, waiting_.size() - begin));
 }
 

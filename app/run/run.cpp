@@ -137,7 +137,7 @@ std::vector<double> run_values(const RobotInput& input, const State<double>& x,
   for (const NamedJoint& joint : input.coordinates.all()) add(coordinates_of(joint, x));
   for (const NamedJoint& joint : input.coordinates.all()) add(from_solver(joint, x, x.qd));
   for (std::size_t i = 1; i < input.model.parent.size(); ++i) add(k.X_WL[i].p);
-  Workspace<double> w(input.model);
+  BodyKinematics<double> w(input.model);
   kinematics(input.model, x, w);
   add(std::array{kinetic_energy(input.model, x, w), potential_energy(input.model, w)});
   return values;

@@ -24,13 +24,13 @@ EnergyMomentum energy_and_momentum_of(const Model<double>& model, const std::vec
 }
 
 double kinetic_energy(const Model<double>& model, const State<double>& x) {
-  Workspace<double> w(model);
+  BodyKinematics<double> w(model);
   kinematics(model, x, w);
   return kinetic_energy(model, x, w);
 }
 
 double potential_energy(const Model<double>& model, const State<double>& x) {
-  Workspace<double> w(model);
+  BodyKinematics<double> w(model);
   kinematics(model, x, w);
   return potential_energy(model, w);
 }

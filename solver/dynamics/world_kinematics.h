@@ -13,19 +13,19 @@
 namespace twinarm {
 
 template <class S>
-Vec3<S> to_world(const Workspace<S>& w, std::size_t body, const Vec3<S>& a_B) {
+Vec3<S> to_world(const BodyKinematics<S>& w, std::size_t body, const Vec3<S>& a_B) {
   return transpose_times(w.X0[body].E, a_B);
 }
 template <class S>
-Vec3<S> point_position(const Workspace<S>& w, std::size_t body, const Vec3<S>& r_B) {
+Vec3<S> point_position(const BodyKinematics<S>& w, std::size_t body, const Vec3<S>& r_B) {
   return w.X0[body].r + to_world(w, body, r_B);
 }
 template <class S>
-Vec3<S> angular_velocity(const Workspace<S>& w, std::size_t body) {
+Vec3<S> angular_velocity(const BodyKinematics<S>& w, std::size_t body) {
   return to_world(w, body, w.v[body].w);
 }
 template <class S>
-Vec3<S> point_velocity(const Workspace<S>& w, std::size_t body, const Vec3<S>& r_B) {
+Vec3<S> point_velocity(const BodyKinematics<S>& w, std::size_t body, const Vec3<S>& r_B) {
   return to_world(w, body, plus_cross(w.v[body].v, w.v[body].w, r_B));
 }
 
@@ -54,8 +54,8 @@ Vec3<S> angular_acceleration(const Workspace<S>& w, std::size_t body) {
 
 // Columns J[0 .. nv): d(angular velocity of the body; velocity of its point) / d qd.
 template <class S>
-void jacobian(const Model<S>& model, const Workspace<S>& w, std::size_t body, const Vec3<S>& r_B,
-              std::vector<Motion<S>>& J) {
+void jacobian(const Model<S>& model, const BodyKinematics<S>& w, std::size_t body,
+              const Vec3<S>& r_B, std::vector<Motion<S>>& J) {
   const Vec3<S> p = point_position(w, body, r_B);
   for (Motion<S>& column : J) column = {};
   for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i]))
@@ -73,7 +73,7 @@ struct MassAndCom {
   Vec3<S> com;  // world axes [m]; zero if the total mass is zero
 };
 template <class S>
-MassAndCom<S> mass_and_com(const Model<S>& model, const Workspace<S>& w) {
+MassAndCom<S> mass_and_com(const Model<S>& model, const BodyKinematics<S>& w) {
   MassAndCom<S> all;
   Vec3<S> first_moment;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
@@ -86,7 +86,7 @@ MassAndCom<S> mass_and_com(const Model<S>& model, const Workspace<S>& w) {
 // (angular momentum about the world's origin; linear momentum), without rotors (armature): the
 // model does not contain their axes.
 template <class S>
-Force<S> momentum(const Model<S>& model, const Workspace<S>& w) {
+Force<S> momentum(const Model<S>& model, const BodyKinematics<S>& w) {
   Force<S> sum;
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     sum += transpose_times(w.X0[i], model.I[i] * w.v[i]);
@@ -94,7 +94,7 @@ Force<S> momentum(const Model<S>& model, const Workspace<S>& w) {
 }
 // Kinetic energy of bodies and rotors [J].
 template <class S>
-S kinetic_energy(const Model<S>& model, const State<S>& x, const Workspace<S>& w) {
+S kinetic_energy(const Model<S>& model, const State<S>& x, const BodyKinematics<S>& w) {
   S twice(0);
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     twice = twice + dot(w.v[i], model.I[i] * w.v[i]);
@@ -103,7 +103,7 @@ S kinetic_energy(const Model<S>& model, const State<S>& x, const Workspace<S>& w
 }
 // Potential energy of gravity, 0 at the world's origin [J].
 template <class S>
-S potential_energy(const Model<S>& model, const Workspace<S>& w) {
+S potential_energy(const Model<S>& model, const BodyKinematics<S>& w) {
   S sum(0);
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     sum = sum - dot(model.gravity, model.I[i].m * w.X0[i].r + to_world(w, i, model.I[i].h));

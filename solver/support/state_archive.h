@@ -29,6 +29,7 @@ class StateArchive {
   bool reads() const { return reads_; }
   const std::string& bytes() const { return bytes_; }
   bool at_end() const { return at_ == bytes_.size(); }
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
   // All throw std::runtime_error if too few bytes are left to read.
   template <class T>
@@ -57,7 +58,10 @@ class StateArchive {
   }
   template <class T, std::size_t N>
   void visit(std::array<T, N>& values) {
-    for (T& value : values) visit(value);
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+      visit_numbers(values.data(), N);
+    else
+      for (T& value : values) visit(value);
   }
   void visit(std::vector<std::string>& texts) {
     resize(texts, sizeof(std::uint64_t));

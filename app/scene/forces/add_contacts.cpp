@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cstring>
+#include <string_view>
 
 #include "app/scene/read/read_scene.h"
 #include "solver/support/number_text.h"
@@ -134,10 +134,11 @@ void SceneContacts::find_deepest_contact(const Simulation& simulation) {
 
 std::vector<EnergyRow> SceneContacts::rows() const {
   std::vector<EnergyRow> rows;
-  const auto add = [&](EnergyRowKind kind, const std::string& of, const char* part, double work) {
+  const auto add = [&](EnergyRowKind kind, const std::string& of, std::string_view part,
+                       double work) {
     if (work == 0) return;
-    std::string& name = rows.emplace_back(EnergyRow{kind, {}, work}).name;
-    name.reserve(of.size() + std::strlen(part));
+    std::string& name = rows.emplace_back(kind, std::string(), work).name;
+    name.reserve(of.size() + part.size());
     name.append(of).append(part);
   };
   if (limits_)
@@ -148,9 +149,10 @@ std::vector<EnergyRow> SceneContacts::rows() const {
     }
   if (!contacts_) return rows;
   rows.reserve(rows.size() + 3 * contacts_->work().size());
+  std::string name;
   for (const ContactWork& pair : contacts_->work()) {
-    const std::string name = "contact/" + contacts_->bodies().geometry(pair.a).name + "-" +
-                             contacts_->bodies().geometry(pair.b).name;
+    name.assign("contact/").append(contacts_->bodies().geometry(pair.a).name).append("-");
+    name.append(contacts_->bodies().geometry(pair.b).name);
     add(EnergyRowKind::contact_normal, name, "/normal", pair.normal);
     add(EnergyRowKind::contact_friction, name, "/friction", pair.friction);
     add(EnergyRowKind::contact_impact, name, "/impact", pair.impact);
