@@ -137,7 +137,7 @@ std::vector<EnergyRow> SceneContacts::rows() const {
   const auto add = [&](EnergyRowKind kind, const std::string& of, std::string_view part,
                        double work) {
     if (work == 0) return;
-    std::string& name = rows.emplace_back(kind, std::string(), work).name;
+    std::string& name = rows.emplace_back(EnergyRow{kind, {}, work}).name;
     name.reserve(of.size() + part.size());
     name.append(of).append(part);
   };
