@@ -64,6 +64,8 @@ TEST_CASE("lab history: a saved run replays bit for bit, with operator input and
     CHECK(again.hash == again.hash_again);
     CHECK(again.compared == saved.frames - 1);
     CHECK(again.equal == again.compared);
+    for (std::size_t n = 0; n < recording.size(); ++n)  // the operator's input is not in the file
+      CHECK(recording.frame(n).memory.size() > 0);
   };
   drag(20);
   check(0, 20);
