@@ -3,6 +3,7 @@
 # Emscripten. They are taken from Debian's musl-dev as one object, seen by our code alone: libraries that
 # we load keep their own.
 find_file(TWINARM_MUSL libc.a PATHS /usr/lib/${CMAKE_SYSTEM_PROCESSOR}-linux-musl /usr/lib/musl/lib
+  /usr/${CMAKE_SYSTEM_PROCESSOR}-linux-musl/lib64
   NO_DEFAULT_PATH DOC "musl's C library, for its mathematical functions")
 if(NOT TWINARM_MUSL)
   message(STATUS "The system's libm is used: last bits of results are its own (for golden hashes: musl-dev)")
