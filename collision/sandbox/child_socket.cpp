@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
@@ -16,14 +17,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Waits until `end` for bytes or end of file; false on timeout.
-bool wait_for_bytes(int socket, Clock::time_point end) {
-  while (true) {
+// Waits until `end` for bytes or end of file; false on timeout and interrupt.
+bool wait_for_bytes(int socket, Clock::time_point end, bool (*is_interrupted)()) {
+  constexpr long kWait = 200;  // [ms]
+  while (!is_interrupted || !is_interrupted()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
     if (left <= 0) return false;
     pollfd ready{socket, POLLIN, 0};
-    if (poll(&ready, 1, static_cast<int>(left)) > 0) return true;
+    if (poll(&ready, 1, static_cast<int>(std::min(left, kWait))) > 0) return true;
   }
+  return false;
 }
 
 // More than the largest image and mesh. Of a child that was taken over no more is read.
@@ -56,11 +59,12 @@ bool send_all(int socket, std::string_view bytes, SendSome send_some) {
   return true;
 }
 
-std::optional<std::string> receive_all(int socket, std::chrono::seconds timeout) {
+std::optional<std::string> receive_all(int socket, std::chrono::seconds timeout,
+                                       bool (*is_interrupted)()) {
   const auto end = Clock::now() + timeout;
   std::string bytes;
   std::array<char, 1 << 16> some;
-  while (wait_for_bytes(socket, end)) {
+  while (wait_for_bytes(socket, end, is_interrupted)) {
     const ssize_t got = read(socket, some.data(), some.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return bytes;

@@ -24,8 +24,10 @@ ssize_t send_without_signal(int socket, const void* bytes, std::size_t count);
 
 // Both until the other end is closed. False if it was closed too early.
 bool send_all(int socket, std::string_view bytes, SendSome send_some = send_without_signal);
-// Empty on timeout and if the other end sends too much.
-std::optional<std::string> receive_all(int socket, std::chrono::seconds timeout);
+// Empty on timeout, if the other end sends too much, and when `is_interrupted`, which is asked
+// several times a second.
+std::optional<std::string> receive_all(int socket, std::chrono::seconds timeout,
+                                       bool (*is_interrupted)() = nullptr);
 
 // Suppresses messages of libraries; the parent reports the error. Not under sanitizers.
 void discard_output();

@@ -22,7 +22,10 @@ namespace {
 // Exit codes of the child.
 constexpr int kDone = 0, kOutOfMemory = 3, kThrew = 4, kCannotSend = 5;
 
+constexpr const char* kInterrupted = "was interrupted";
+
 bool is_child = false;
+bool (*is_interrupted)() = nullptr;
 
 void limit(int what, rlim_t max) {
   const rlimit both{max, max};
@@ -68,7 +71,7 @@ std::string fault_of(int status, const ChildLimits& limits) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU || signal == SIGKILL)
       return "needs more than " + std::to_string(limits.cpu_seconds) + " s of CPU time";
-    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return "was interrupted";
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return kInterrupted;
     return "crashes";
   }
   switch (WEXITSTATUS(status)) {
@@ -83,6 +86,10 @@ std::string fault_of(int status, const ChildLimits& limits) {
 
 }  // namespace
 
+void end_children_when(bool (*check)()) {
+  is_interrupted = check;
+}
+
 ChildResult run_in_fork(ChildWork work, const std::string& argument, const ChildLimits& limits) {
   const auto [mine, theirs] = make_sockets();
   const pid_t child = fork();
@@ -92,12 +99,13 @@ ChildResult run_in_fork(ChildWork work, const std::string& argument, const Child
   }
   if (child == 0) run_child(work, argument, limits, theirs);
   close(theirs);
-  auto bytes = receive_all(mine, std::chrono::seconds(limits.wall_seconds));
+  auto bytes = receive_all(mine, std::chrono::seconds(limits.wall_seconds), is_interrupted);
   if (!bytes) kill(child, SIGKILL);
   close(mine);
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw_errno("waitpid");
+  if (!bytes && is_interrupted && is_interrupted()) return {"", kInterrupted};
   if (!bytes) return {"", "does not end within " + std::to_string(limits.wall_seconds) + " s"};
   const std::string fault = fault_of(status, limits);
   return {fault.empty() ? std::move(*bytes) : "", fault};

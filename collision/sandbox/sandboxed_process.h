@@ -29,6 +29,10 @@ using ChildWork = std::string (*)(const std::string& argument);
 ChildResult run_limited(ChildWork work, const std::string& argument,
                         const ChildLimits& limits = {});
 
+// Asked while a child works, by default never: true ends the child, with the fault "was
+// interrupted".
+void end_children_when(bool (*is_interrupted)());
+
 // The same, always in a child of this process.
 ChildResult run_in_fork(ChildWork work, const std::string& argument, const ChildLimits& limits);
 

@@ -15,6 +15,7 @@
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
+#include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -195,6 +196,7 @@ int run_program(int argc, char** argv) {
   }
 
   catch_interrupts();
+  end_children_when(is_interrupted);
   try {
     const int code = chosen({argv, argv + argc});
     check_stdout();

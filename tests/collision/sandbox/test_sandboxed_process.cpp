@@ -45,6 +45,18 @@ TEST_CASE("a child that crashes, throws or does not terminate gives an error mes
   CHECK(slow.bytes.empty());
 }
 
+TEST_CASE("a child that hangs ends as soon as its parent is interrupted") {
+  end_children_when([] { return true; });
+  const ChildResult hangs = run_limited(
+      [](const std::string&) -> std::string {
+        for (;;) pause();
+      },
+      "");
+  end_children_when(nullptr);
+  CHECK(hangs.fault == "was interrupted");
+  CHECK(hangs.bytes.empty());
+}
+
 #ifndef TWINARM_SANITIZED
 namespace {
 
