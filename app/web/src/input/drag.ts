@@ -89,7 +89,7 @@ export class Drag {
 
   private down(event: PointerEvent): void {
     const view = this.view();
-    if (this.pinch.isPassing() || !view || !this.isOnView(event)) return;
+    if (this.pinch.isPassing || !view || !this.isOnView(event)) return;
     if (event.button !== 0 || !event.isPrimary || event.altKey) return;
     const at = this.pixel(event);
     if (event.target === this.handles.tip) {

@@ -13,8 +13,8 @@ interface First {
 }
 
 export class Pinch {
+  isPassing = false; // the first finger's event is being repeated for the camera
   private first: First | null = null;
-  private passing = false;
 
   constructor(
     host: HTMLElement,
@@ -29,14 +29,9 @@ export class Pinch {
       host.addEventListener(end, (event) => this.up(event), { capture: true });
   }
 
-  // The first finger's event is being repeated for the camera.
-  isPassing(): boolean {
-    return this.passing;
-  }
-
   private down(event: PointerEvent): void {
     const stage = this.stage();
-    if (this.passing || !stage || event.pointerType !== 'touch') return;
+    if (this.isPassing || !stage || event.pointerType !== 'touch') return;
     const { first } = this;
     if (event.isPrimary) {
       const [eye, target] = [stage.camera.position.clone(), stage.controls.target.clone()];
@@ -63,8 +58,8 @@ export class Pinch {
   private pass(event: PointerEvent, canvas: HTMLCanvasElement): void {
     const { pointerId, pointerType, isPrimary, clientX, clientY } = event;
     const init = { pointerId, pointerType, isPrimary, clientX, clientY, bubbles: true };
-    this.passing = true;
+    this.isPassing = true;
     canvas.dispatchEvent(new PointerEvent('pointerdown', init));
-    this.passing = false;
+    this.isPassing = false;
   }
 }

@@ -1,7 +1,7 @@
 // Input of the target robot: source, device force, control among clients.
 import './input_bar.css';
 import { button, changeDetector, element, option, setText, statusLine } from '../ui/dom';
-import { type Command, type Frame, type InputState, isViewOnly, type SceneMessage, type StateMessage } from '../source/link';
+import { type Command, type InputState, isViewOnly, type SceneMessage, type StateMessage } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
 
@@ -39,7 +39,6 @@ export class InputBar implements Panel {
   });
   private readonly input = element('div.line', element('b', 'Input'), this.source, this.gripper);
   private column = -1;
-  private newest: Frame | null = null;
   private drawn = '';
   private readonly isControlNew = changeDetector();
   private readonly isStateNew = changeDetector();
@@ -88,12 +87,8 @@ export class InputBar implements Panel {
     this.root.hidden = !hasTarget && !this.control.hasChildNodes();
   }
 
-  onFrame(frame: Frame): void {
-    this.newest = frame;
-  }
-
   draw(): void {
-    const force = this.newest && this.column >= 0 ? this.newest.channels[this.column] : NaN;
+    const force = this.page.frame?.channels[this.column] ?? NaN;
     const hasForce = Number.isFinite(force);
     const text = hasForce ? `${force.toFixed(2)} N` : '';
     if (text === this.drawn) return;

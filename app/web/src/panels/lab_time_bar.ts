@@ -1,7 +1,7 @@
 // Time bar of a live run: single steps, earlier instants, branches, files.
 import { button, changeDetector, element, icon } from '../ui/dom';
 import { BranchDialog } from './branch_dialog';
-import { type Frame, isViewOnly, type StateMessage } from '../source/link';
+import { isViewOnly, type StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import { Rewind } from '../source/playhead';
 import { saveMenu } from './menus';
@@ -25,7 +25,6 @@ export class LabTimeBar implements Panel, Clock {
   private readonly bar = new TimeBar(this, LABEL, [], [this.step, this.again]);
   private readonly dialog = new BranchDialog(this.page, this.rewind, this.changes);
   readonly root = this.bar.root;
-  private time: number | null = null; // of the newest frame
   private readonly isNew = changeDetector();
 
   // `menus`: at the end of the bar.
@@ -53,10 +52,6 @@ export class LabTimeBar implements Panel, Clock {
     this.rewind.follow(state.at);
   }
 
-  onFrame(frame: Frame): void {
-    this.time = frame.time;
-  }
-
   draw(): void {
     this.rewind.tick();
     if (this.page.state) this.show(this.page.state);
@@ -68,7 +63,7 @@ export class LabTimeBar implements Panel, Clock {
     if (!state) return;
     const { rewind } = this;
     if (rewind.at === null) this.page.send({ do: 'play', on: !state.playing });
-    else if (rewind.playing) rewind.pause();
+    else if (rewind.playing) rewind.playing = false;
     else rewind.play(rewind.at, state.speed);
   }
 
@@ -111,7 +106,7 @@ export class LabTimeBar implements Panel, Clock {
     const span = Math.max(1e-9, last - first);
     const share = at === null ? 1 : Math.min(1, Math.max(0, (at - first) / span));
     const words = at === null ? 'now' : `${at.toFixed(3)} seconds`;
-    this.bar.show({ time: this.time, share, isPlaying, speed, words });
+    this.bar.show({ time: this.page.frame?.time ?? null, share, isPlaying, speed, words });
     const isDisabled = isViewOnly(state);
     const pace = state.speed_ratio > 0 ? state.speed_ratio : 1;
     const shown = [isPlaying, first, last, branch, failure?.time, at, speed, isDisabled, pace.toFixed(2)];

@@ -25,6 +25,7 @@ export interface Panel extends Listener {
 export interface LabPage {
   readonly scene: SceneMessage | null; // the newest
   readonly state: StateMessage | null; // the newest
+  readonly frame: Frame | null; // the newest of the scene
   readonly selected: number | null; // body
   readonly operator: { readonly isGripperClosed: boolean; button(index: 0 | 1, down: boolean): void };
   readonly hasControl: boolean;

@@ -19,14 +19,6 @@ function isPlace(value: unknown): value is ArrayPlace {
   return typeof value === 'object' && value !== null && 'at' in value && 'count' in value;
 }
 
-// Replaces references by arrays, recursively.
-function resolve(value: unknown, buffer: ArrayBuffer): unknown {
-  if (isPlace(value)) return new KINDS[value.type](buffer, value.at, value.count);
-  if (Array.isArray(value)) return value.map((item) => resolve(item, buffer));
-  if (typeof value !== 'object' || value === null) return value;
-  return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, resolve(item, buffer)]));
-}
-
 async function inflate(base64: string): Promise<ArrayBuffer> {
   const packed = Uint8Array.from(atob(base64.trim()), (c) => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
@@ -62,7 +54,9 @@ function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap
 
 type Packed = { meshes: PackedMesh[]; textures: { png: Uint8Array<ArrayBuffer> }[] };
 async function embedded<T extends PageData>(): Promise<T> {
-  const data = resolve(JSON.parse(textOf('run')), await inflate(textOf('run-bytes'))) as Packed;
+  const buffer = await inflate(textOf('run-bytes'));
+  const arrayAt = ({ type, at, count }: ArrayPlace) => new KINDS[type](buffer, at, count);
+  const data: Packed = JSON.parse(textOf('run'), (_, value) => (isPlace(value) ? arrayAt(value) : value));
   const textures = await Promise.all(data.textures.map(picture));
   return { ...data, meshes: data.meshes.map(unpackMesh), textures } as unknown as T;
 }

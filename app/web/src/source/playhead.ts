@@ -17,7 +17,7 @@ export class Playhead {
   // Seeks and pauses.
   look(at: number | null): void {
     this.playing = false;
-    this.put(at);
+    this.seek(at);
   }
 
   // At the end `at` becomes `until`.
@@ -26,11 +26,7 @@ export class Playhead {
     this.speed = speed;
     this.until = until;
     this.last = performance.now();
-    this.put(from);
-  }
-
-  pause(): void {
-    this.playing = false;
+    this.seek(from);
   }
 
   advance(now: number, end: number): void {
@@ -39,10 +35,11 @@ export class Playhead {
     this.last = now;
     const at = this.at + passed * this.speed;
     this.playing = at < (this.until ?? end);
-    this.put(this.playing ? at : this.until);
+    this.seek(this.playing ? at : this.until);
   }
 
-  protected put(at: number | null): void {
+  // Keeps playing if it was playing.
+  seek(at: number | null): void {
     this.at = at;
   }
 }
@@ -88,7 +85,7 @@ export class Player extends Playhead implements RunSource, Clock {
 
   toggle(): void {
     if (!this.playing) return this.play(this.at >= this.end ? this.start : this.at, this.speed, this.end);
-    this.pause();
+    this.playing = false;
     this.changed();
   }
 
@@ -97,15 +94,11 @@ export class Player extends Playhead implements RunSource, Clock {
     this.changed();
   }
 
-  // Keeps playing if it was playing.
-  seek(time: number): void {
-    this.put(time);
-  }
   seekShare(share: number): void {
     this.look(this.start + share * (this.end - this.start));
   }
 
-  protected put(time: number): void {
+  seek(time: number): void {
     this.at = Math.min(this.end, Math.max(this.start, time));
     this.changed();
   }
@@ -145,10 +138,10 @@ export class Rewind extends Playhead {
 
   tick(): void {
     this.advance(performance.now(), this.page.state?.last ?? Infinity);
-    if (this.at !== this.sent) this.put(this.at);
+    if (this.at !== this.sent) this.seek(this.at);
   }
 
-  protected put(at: number | null): void {
+  seek(at: number | null): void {
     this.at = at;
     const now = performance.now();
     if (now - this.sentAt < PAUSE && at !== null) return; // sent by a later tick

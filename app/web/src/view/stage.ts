@@ -165,20 +165,9 @@ export class Stage {
 
   // Rotates about the target by angles [rad] and scales the distance.
   orbit(around: number, up: number, closer: number): void {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const length = offset.length() * closer;
-    const azimuth = Math.atan2(offset.y, offset.x) + around;
-    const limit = Math.PI / 2 - 0.001;
-    const rise = Math.asin(THREE.MathUtils.clamp(offset.z / offset.length(), -1, 1)) + up;
-    const elevation = THREE.MathUtils.clamp(rise, -limit, limit);
-    const { minDistance, maxDistance, target } = this.controls;
-    const distance = THREE.MathUtils.clamp(length, minDistance, maxDistance);
-    const flat = Math.cos(elevation);
-    this.camera.position
-      .set(flat * Math.cos(azimuth), flat * Math.sin(azimuth), Math.sin(elevation))
-      .multiplyScalar(distance)
-      .add(target);
-    this.controls.update();
+    this.controls.rotateLeft(-around);
+    this.controls.rotateUp(up);
+    this.controls.dollyIn(closer);
   }
 
   // World to pixels from the upper left of the view; null: behind the camera.
