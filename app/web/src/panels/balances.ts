@@ -96,17 +96,15 @@ export class EnergyPanel implements Panel {
 export class MomentumPanel implements Panel {
   readonly root = element('section.momentum');
   private readonly cells: HTMLElement[][]; // the last row: the sum
-  private readonly largest: [number, number]; // [N s], [N m s]
+  private readonly largest = [0, 0]; // [N s], [N m s]
   private shown = -1;
 
   constructor(private readonly run: Run, private readonly player: Player) {
     const { rows, values } = run.momentum;
-    const sizes: [number, number] = [0, 0];
     values.forEach((value, i) => {
       const half = i % 6 < 3 ? 0 : 1;
-      sizes[half] = Math.max(sizes[half], Math.abs(value));
+      this.largest[half] = Math.max(this.largest[half], Math.abs(value));
     });
-    this.largest = sizes;
     this.cells = [...rows, ''].map(() => Array.from({ length: 6 }, () => numberCell(0)));
     const lines = rows.map((name, i) => row(name, ...this.cells[i]));
     const foot = row('total = change in momentum', ...this.cells[rows.length]);

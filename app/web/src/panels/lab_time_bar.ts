@@ -16,8 +16,7 @@ const LABEL = 'instant of the buffered run';
 export class LabTimeBar implements Panel, Clock {
   readonly rewind = new Rewind(this.page);
   private readonly step = button(icon('step'), 'one step', () => this.single());
-  private readonly reset = () => this.page.send({ do: 'reset' });
-  private readonly again = button(icon('again'), 'restart', this.reset);
+  private readonly again = button(icon('again'), 'restart', () => this.page.send({ do: 'reset' }));
   private readonly branch = button('branch …', BRANCH, () => this.openBranch());
   private readonly present = button('to now', 'to the newest instant', () => this.rewind.look(null));
   private readonly branchMark = element('i.branch-mark', { 'aria-hidden': 'true' });

@@ -32,11 +32,6 @@ export abstract class ParameterRow {
     this.showStatus(parameter);
   }
 
-  protected begin(): void {
-    this.show(this.parameter.value);
-    this.update(this.parameter);
-  }
-
   // The control that has replaced `before`, whose text was `typed`.
   focus(before: Element, typed: string | null): void {
     const controls = [...this.root.querySelectorAll<HTMLElement>('input, select, [tabindex="0"]')];
@@ -122,7 +117,7 @@ class NumberRow extends ParameterRow {
     this.head(this.slider ? [this.slider.root, number] : [number], id);
     for (const at of [this.slider?.input, this.field])
       at?.addEventListener('keydown', (event) => this.press(event));
-    this.begin();
+    this.update(parameter);
   }
 
   protected isHeld(): boolean {
@@ -211,7 +206,7 @@ class ChoiceRow extends ParameterRow {
       this.head([this.control]);
     }
     this.root.classList.add('choice');
-    this.begin();
+    this.update(parameter);
   }
 
   protected isHeld(): boolean {

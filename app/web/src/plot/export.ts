@@ -25,10 +25,6 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-export function saveCsv(name: string, columns: CsvColumn[], rows: number): void {
-  download(name, new Blob([csvText(columns, rows)], { type: 'text/csv' }));
-}
-
 // "Hand and obstacles", "error": "hand-and-obstacles-error.csv".
 export function fileName(title: string, what: string, ending: string): string {
   const plain = `${title}-${what}`.toLowerCase().replaceAll(/[^\p{L}\p{N}]+/gu, '-');

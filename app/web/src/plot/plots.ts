@@ -7,7 +7,7 @@ import type { RunSource } from '../source/run_source';
 import { button, element, icon, option } from '../ui/dom';
 import { Chart } from './chart';
 import type { Window } from './chart_data';
-import { type CsvColumn, fileName, saveCsv } from './export';
+import { type CsvColumn, csvText, download, fileName } from './export';
 import { type PlotSpec, PlotSpecs } from './specs';
 import { Segments } from '../ui/choices';
 
@@ -91,9 +91,10 @@ export class Plots implements Panel {
     this.source.look(time);
   }
   saveCsv(what: string, columns: CsvColumn[]): void {
-    const store = this.record!.store;
+    const { store, scene } = this.record!;
     const time = { name: 'time', unit: 's', value: (row: number) => store.times[row] };
-    saveCsv(fileName(this.record!.scene.title, what, 'csv'), [time, ...columns], store.length);
+    const text = csvText([time, ...columns], store.length);
+    download(fileName(scene.title, what, 'csv'), new Blob([text], { type: 'text/csv' }));
   }
   pictureName(what: string): string {
     return fileName(this.record!.scene.title, what, 'png');
@@ -131,9 +132,8 @@ export class Plots implements Panel {
     this.drawn = '';
   }
 
-  pause(on: boolean): void {
-    this.window = on && this.record ? this.shownWindow(this.record) : null;
-    this.refresh();
+  togglePause(): void {
+    this.zoom(this.window || !this.record ? null : this.shownWindow(this.record));
   }
 
   private shownWindow(record: RunRecord): Window {
@@ -202,7 +202,6 @@ const PAUSE = 'pause the plots while the run continues';
 class PlotBar {
   readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
   length: number; // of the time shown [s]
-  private isPaused = false;
   private readonly pause: HTMLButtonElement;
 
   constructor(isLive: boolean, plots: Plots) {
@@ -212,11 +211,7 @@ class PlotBar {
       plots.zoom(null);
     });
     const angles = new Segments('angles in', ['°', 'rad'], '°', (name) => plots.setDegrees(name === '°'));
-    const toggle = () => {
-      this.showPaused(!this.isPaused);
-      plots.pause(this.isPaused);
-    };
-    this.pause = button(icon('pause'), PAUSE, toggle);
+    this.pause = button(icon('pause'), PAUSE, () => plots.togglePause());
     const whole = button('whole run', 'show all of the run (double-click)', () => plots.zoom(null));
     this.root.append(
       ...(isLive ? [this.pause, lengths.root] : [whole]),
@@ -227,7 +222,6 @@ class PlotBar {
   }
 
   showPaused(on: boolean): void {
-    this.isPaused = on;
     this.pause.setAttribute('aria-pressed', String(on));
     this.pause.replaceChildren(icon(on ? 'play' : 'pause'));
     this.pause.title = on ? 'follow the run' : PAUSE;

@@ -1,5 +1,7 @@
 // Data of a recorded run. World frame: z up, metres, radians; colours sRGB, one byte a channel.
 
+import type { SceneLayer } from './messages';
+
 // A quantity over the frames.
 export interface Channel {
   name: string; // "q/arm/joint1", "coupling/pull_arm1"
@@ -38,11 +40,8 @@ export interface LegendLine {
   text: string;
 }
 
-export interface Layer {
-  name: string; // "bodies", "targets", "couplings", ..
-  what: string;
+export interface Layer extends SceneLayer {
   shown: boolean; // at first
-  legend: LegendLine[];
   instances: InstanceColumns;
   labels: LabelColumns;
 }
@@ -53,18 +52,6 @@ export interface MeshData {
   index: Uint32Array;
   uv: Float32Array; // from the upper left of a texture; empty: none
   twoSided: boolean; // an open surface
-}
-
-// Rows sum to the change of momentum: three numbers linear, three angular about the origin.
-export interface MomentumData {
-  rows: string[];
-  values: Float64Array; // frame by frame, row by row, six each
-}
-
-export interface EnergyBalanceData {
-  rows: string[];
-  end: string[]; // joules at the end, all digits
-  works: Float64Array; // frame by frame, row by row within a frame
 }
 
 export interface View {
@@ -97,8 +84,9 @@ export interface Run extends PageData {
   command: string;
   times: Float64Array;
   channels: Channel[];
-  energy_balance: EnergyBalanceData;
-  momentum: MomentumData;
+  energy_balance: { rows: string[]; works: Float64Array }; // frame by frame, row by row within a frame
+  // Rows sum to the change of momentum: three numbers linear, three angular about the origin.
+  momentum: { rows: string[]; values: Float64Array }; // frame by frame, row by row, six each
   bodies: string[]; // that have position channels
 }
 

@@ -21,12 +21,6 @@ export function decodeMesh(buffer: ArrayBuffer): MeshData {
   return { position, normal, index, uv, twoSided: (flags & TWO_SIDED) !== 0 };
 }
 
-async function fetched(address: string): Promise<Response> {
-  const answer = await fetch(address);
-  if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
-  return answer;
-}
-
 export class MeshStore {
   private readonly kept = new Map<string, Promise<unknown>>(); // by address
 
@@ -52,7 +46,10 @@ export class MeshStore {
   private one<T>(address: string, read: (answer: Response) => Promise<T>): Promise<T> {
     const known = this.kept.get(address);
     if (known) return known as Promise<T>;
-    const asked = fetched(address).then(read);
+    const asked = fetch(address).then((answer) => {
+      if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
+      return read(answer);
+    });
     this.kept.set(address, asked);
     asked.catch(() => this.kept.delete(address));
     return asked;

@@ -4,14 +4,13 @@ import { definition } from './glossary';
 
 // Tabs of the side panel: one tab stop; arrow keys move between the tabs.
 export class Tabs {
-  readonly root: HTMLElement;
   private readonly list = element('div', { role: 'tablist' });
+  readonly root = element('aside', { 'aria-label': 'panel' }, this.list);
   private readonly tabs: HTMLButtonElement[] = [];
   private readonly panels: HTMLElement[] = [];
   current = 0;
 
   constructor() {
-    this.root = element('aside', { 'aria-label': 'panel' }, this.list);
     this.list.addEventListener('keydown', (event) => {
       const last = this.tabs.length - 1;
       const { current } = this;

@@ -19,8 +19,6 @@ export class LiveStage {
   private readonly store = new MeshStore();
   private readonly tag = element('div.tag', { hidden: '' });
   private scene: SceneMessage | null = null;
-  private meshes = 0; // of the stage
-  private textures = 0;
   private isSeen = false;
   private dark = false;
   private numbers = new Uint32Array(); // 0, 1, 2, ..
@@ -50,7 +48,6 @@ export class LiveStage {
       this.stage.refurnish(scene.view);
       this.stage.setTheme(this.dark);
       this.stage.look('start');
-      this.meshes = this.textures = 0;
     }
     const [meshes, textures] = await Promise.all([
       this.store.get(scene.meshes),
@@ -58,9 +55,8 @@ export class LiveStage {
     ]);
     if (this.scene !== scene) return; // replaced meanwhile
     this.store.keepOnly([...scene.meshes, ...scene.textures]);
-    this.stage.painter.add(meshes.slice(this.meshes), textures.slice(this.textures));
-    this.meshes = meshes.length;
-    this.textures = textures.length;
+    const { painter } = this.stage;
+    painter.add(meshes.slice(painter.geometries.length), textures.slice(painter.textures.length));
     this.changed();
   }
 
@@ -76,7 +72,7 @@ export class LiveStage {
 
   get isReady(): boolean {
     if (!this.canDraw) return true;
-    return this.scene !== null && this.meshes === this.scene.meshes.length;
+    return this.stage !== null && this.stage.painter.geometries.length === this.scene!.meshes.length;
   }
 
   // `selected`, `followed`: bodies.

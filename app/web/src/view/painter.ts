@@ -84,7 +84,7 @@ export class Painter {
   readonly geometries: THREE.BufferGeometry[] = []; // by mesh
   private readonly coarse: THREE.BufferGeometry[] = [];
   private readonly meshes: MeshData[] = [];
-  private readonly textures: THREE.Texture[] = [];
+  readonly textures: THREE.Texture[] = [];
   private readonly batches = new Map<number, Batch>();
   private readonly matrix = new THREE.Matrix4();
   private readonly pose = new Pose();

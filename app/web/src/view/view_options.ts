@@ -1,20 +1,17 @@
 // Overlay switches, legend, and views of the camera.
-import type { Layer } from '../protocol/run';
 import { button, changeDetector, element, icon, option } from '../ui/dom';
-import type { SceneBody } from '../source/link';
+import type { SceneBody, SceneLayer } from '../source/link';
 import { remember, remembered } from '../ui/preferences';
 import type { ViewName } from './stage';
-
-type LayerHead = Pick<Layer, 'name' | 'what' | 'legend'>;
 
 export class Overlays {
   private readonly lines = element('ul', { 'aria-label': 'legend' });
   readonly legend = element('details.legend', element('summary', 'Legend'), this.lines);
   private readonly list = element('div.switches', { role: 'group', 'aria-label': 'overlays', hidden: '' });
-  private readonly toggle: HTMLButtonElement;
-  readonly root: HTMLElement;
+  private readonly toggle = button([icon('layers'), ' Show'], 'overlays (o)', () => this.fold(!this.folded));
+  readonly root = element('div.corner', element('div.overlays', this.toggle, this.list), this.legend);
   private readonly areNew = changeDetector(); // layer names
-  private layers: LayerHead[] = [];
+  private layers: SceneLayer[] = [];
 
   // `shown`: layer names, also of other scenes. `hasNumbers`: keys 1 to 9 toggle them.
   constructor(
@@ -22,8 +19,6 @@ export class Overlays {
     private readonly changed: () => void,
     readonly hasNumbers = true,
   ) {
-    this.toggle = button([icon('layers'), ' Show'], 'overlays (o)', () => this.fold(!this.list.hidden));
-    this.root = element('div.corner', element('div.overlays', this.toggle, this.list), this.legend);
     this.fold(true);
     this.legend.open = remembered('legend', true);
     this.legend.addEventListener('toggle', () => remember('legend', this.legend.open));
@@ -45,7 +40,7 @@ export class Overlays {
     return this.list.hidden;
   }
 
-  show(layers: LayerHead[]): void {
+  show(layers: SceneLayer[]): void {
     this.layers = layers;
     const overlays = layers.filter(({ name }) => name !== 'bodies');
     if (this.areNew(overlays.map(({ name }) => name)))
@@ -61,7 +56,7 @@ export class Overlays {
     this.list.querySelectorAll('input')[number - 1]?.click();
   }
 
-  private line({ name, what }: LayerHead, number: number): HTMLElement {
+  private line({ name, what }: SceneLayer, number: number): HTMLElement {
     const box = element('input', { type: 'checkbox', 'data-layer': name });
     box.checked = this.shown.has(name);
     box.addEventListener('change', () => {
