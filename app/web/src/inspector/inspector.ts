@@ -134,7 +134,7 @@ export class Inspector implements Panel {
   }
 
   private show(): void {
-    this.stepper.show(this.at);
+    this.stepper.show(this.at, this.pass);
     this.place.textContent = `step ${this.at + 1} of ${this.steps.length}`;
   }
 
@@ -218,14 +218,12 @@ function orHint(parts: Node[], text: string): Node[] {
 class Stepper {
   readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
   private chips: HTMLButtonElement[] = [];
-  private steps: readonly Step[] = [];
   private rows: HTMLElement[] = [];
 
   constructor(private readonly go: (step: number) => void, private readonly goPass: (pass: number) => void) {}
 
   set(steps: readonly Step[]): void {
     this.chips = steps.map(({ pass, body }, i) => button(body, `pass ${pass} at ${body}`, () => this.go(i)));
-    this.steps = steps;
     this.rows = [1, 2, 3].map((pass) =>
       element(
         'div.row',
@@ -236,12 +234,11 @@ class Stepper {
     this.root.replaceChildren(...this.rows);
   }
 
-  show(at: number): void {
+  show(at: number, pass: number): void {
     this.chips.forEach((chip, i) => {
       chip.setAttribute('aria-current', i === at ? 'step' : 'false');
       chip.classList.toggle('done', i < at);
     });
-    const pass = this.steps[at]?.pass;
     this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === pass));
   }
 }

@@ -54,13 +54,16 @@ export class Page implements LabPage {
   readonly operator = new Operator(this.link, () => this.state, (text) => this.showMessage(text));
   private readonly controller = new Controller(this.operator, (text) => this.showMessage(text));
   private readonly handles = new Handles(this.over);
-  private readonly labView = () => this.view;
-  readonly drag: Drag = new Drag(this.host, this.labView, this.operator, this.handles, {
+  private readonly view = () => {
+    const { scene, frame } = this;
+    return scene && frame ? { scene, frame, stage: this.live.stage } : null;
+  };
+  readonly drag: Drag = new Drag(this.host, this.view, this.operator, this.handles, {
     select: (body) => this.select(body),
     changed: () => this.touch(),
   });
   readonly keys = new KeyInput(
-    this.labView,
+    this.view,
     this.operator,
     this.handles,
     (view, joint) => this.drag.jointValue(view, joint),
@@ -177,11 +180,6 @@ export class Page implements LabPage {
 
   private touch(): void {
     this.stale = true;
-  }
-
-  private get view() {
-    const { scene, frame } = this;
-    return scene && frame ? { scene, frame, stage: this.live.stage } : null;
   }
 
   private connected(open: boolean): void {
