@@ -40,7 +40,7 @@ class WrongGain(ProgramTest):
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_an_unstable_run_bounded_by_joint_limits_raises_an_alarm(self):
-        answer = json.loads(self.run_with(9e5, duration=0.034).stdout)
+        answer = json.loads(self.run_with(9e5).stdout)  # when, depends on the last bits: the motion is chaotic
         self.assertEqual(answer["alarm"]["row"], "numerical")
 
     def test_a_run_that_has_raised_an_alarm_and_goes_on_diverging_is_stopped_by_the_default_bound(self):
