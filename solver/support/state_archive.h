@@ -58,10 +58,7 @@ class StateArchive {
   }
   template <class T, std::size_t N>
   void visit(std::array<T, N>& values) {
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
-      visit_numbers(values.data(), N);
-    else
-      for (T& value : values) visit(value);
+    for (T& value : values) visit(value);
   }
   void visit(std::vector<std::string>& texts) {
     resize(texts, sizeof(std::uint64_t));

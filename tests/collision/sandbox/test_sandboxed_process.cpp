@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -46,13 +47,16 @@ TEST_CASE("a child that crashes, throws or does not terminate gives an error mes
 }
 
 TEST_CASE("a child that hangs ends as soon as its parent is interrupted") {
+  const ChildLimits limits;
+  const auto begin = std::chrono::steady_clock::now();
   end_children_when([] { return true; });
   const ChildResult hangs = run_limited(
       [](const std::string&) -> std::string {
         for (;;) pause();
       },
-      "");
+      "", limits);
   end_children_when(nullptr);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(limits.wall_seconds));
   CHECK(hangs.fault == "was interrupted");
   CHECK(hangs.bytes.empty());
 }
