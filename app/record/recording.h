@@ -100,7 +100,7 @@ std::uint32_t checksum(const char* bytes, std::size_t count);
 
 // Writes a recording during a run: into FILE.part, renamed to FILE at the end. Data are flushed
 // every 0.25 s at the latest, and readers accept a .part: a crash loses no more.
-
+// A run that ends before its first frame leaves none, and no recording of before is replaced.
 class RecordingWriter {
  public:
   // Throws InputError if the file cannot be written. keyframe_every [steps]: 1 where forces or

@@ -31,7 +31,7 @@ std::filesystem::path part_of(const std::filesystem::path& file) {
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHeader header,
                                  long keyframe_every)
-    : out_(checked_place(file), part_of(file), UnfinishedFile::Remains::keep),
+    : out_(checked_place(file), part_of(file)),
       flushed_(std::chrono::steady_clock::now()),
       keyframe_every_(keyframe_every) {
   waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
@@ -63,6 +63,7 @@ void RecordingWriter::alarm(const std::string& words) {
 }
 
 void RecordingWriter::write(RecordedFrame& frame) {
+  if (frame_bytes_ == 0) out_.keep();
   if (needs_memory(frame.step)) {
     keyframe_ = frame.step;
     coder_.restart();
@@ -81,6 +82,7 @@ void RecordingWriter::write(RecordedFrame& frame) {
 }
 
 void RecordingWriter::finish(const std::string& how) {
+  if (frame_bytes_ == 0) return;
   block(recording_format::kEnd, how);
   flush();
   out_.finish();

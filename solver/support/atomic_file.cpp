@@ -87,9 +87,8 @@ void remove_temporary_paths() noexcept {
   }
 }
 
-UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary,
-                               Remains remains)
-    : file_(std::move(file)), temporary_(std::move(temporary)), remains_(remains) {
+UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary)
+    : file_(std::move(file)), temporary_(std::move(temporary)) {
   std::error_code ignored;
   if (std::filesystem::is_other(std::filesystem::status(file_, ignored))) fail(ENODEV);
   if (is_locked(temporary_)) fail(EBUSY);
@@ -99,11 +98,11 @@ UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path
   if (descriptor_ < 0) fail(errno);
   const struct flock lock = whole_file();
   ::fcntl(descriptor_, F_OFD_SETLK, &lock);
-  if (remains_ == Remains::remove) listed_.emplace(temporary_);
+  listed_.emplace(temporary_);
 }
 
 UnfinishedFile::~UnfinishedFile() {
-  if (remains_ == Remains::remove) ::unlink(temporary_.c_str());
+  if (listed_) ::unlink(temporary_.c_str());
   ::close(descriptor_);
 }
 
@@ -115,11 +114,14 @@ void UnfinishedFile::write(std::string_view bytes) {
   }
 }
 
+void UnfinishedFile::keep() {
+  listed_.reset();
+}
+
 void UnfinishedFile::finish() {
   const bool synced = ::fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOTSUP;
   if (!synced || std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(errno);
-  remains_ = Remains::keep;
-  listed_.reset();
+  keep();
   sync_folder(folder_of(file_));
 }
 

@@ -26,18 +26,16 @@ void remove_temporary_paths() noexcept;
 // A file on its way: `temporary`, which becomes `file`.
 class UnfinishedFile {
  public:
-  enum class Remains { remove, keep };  // of `temporary` where it was not finished
-
-  // Creates `temporary`. An unfinished file of before is replaced, and a link that lies there: it
-  // is not followed. Throws InputError if it cannot be created, if `file` is a device or a pipe, or
-  // if another program is writing `temporary`.
-  UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary,
-                 Remains remains = Remains::remove);
+  // Creates `temporary`, which is removed where it is not finished. An unfinished file of before is
+  // replaced, and a link that lies there: it is not followed. Throws InputError if it cannot be
+  // created, if `file` is a device or a pipe, or if another program is writing `temporary`.
+  UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary);
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
   void write(std::string_view bytes);  // throws InputError
+  void keep();                         // from now on `temporary` remains where it is not finished
   // Renames it, when its bytes are on the disk: power may fail from here on. Throws InputError.
   void finish();
   const std::filesystem::path& temporary() const { return temporary_; }
@@ -46,9 +44,8 @@ class UnfinishedFile {
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path file_, temporary_;
-  Remains remains_;
   int descriptor_ = -1;
-  std::optional<TemporaryPath> listed_;
+  std::optional<TemporaryPath> listed_;  // while it is to be removed
 };
 
 // Makes the folder if it is missing. Throws InputError if the file cannot be written, or is a

@@ -42,7 +42,7 @@ class LargeMeshes(ProgramTest):
                      "axis = [0, 1, 0]\norigin = [0, 0, 0.3]\nlimits = [-1, 1]\n")
         return self.write("balls.toml", text)
 
-    def test_a_robot_of_six_links_of_a_hundred_thousand_triangles_is_made_and_simulated(self):
+    def test_a_robot_of_six_links_of_a_hundred_thousand_triangles_is_made_simulated_and_interrupted(self):
         recipe = self.recipe(6, 160)
         before = processor_time_of_ended()
         self.twinarm("make-robot", recipe)
@@ -53,6 +53,16 @@ class LargeMeshes(ProgramTest):
         self.twinarm("simulate", scene, "--duration", 0.001)
         if "san" not in program.PROGRAM:
             self.assertLess(processor_time_of_ended() - before, MAX_SECONDS)
+
+        # SIGTERM while a run that has opened its recording reads the meshes.
+        recording, part = self.folder / "run.twinrec", self.folder / "run.twinrec.part"
+        recording.write_bytes(b"of before")
+        _, reported = self.interrupted("simulate", scene, "--duration", 1, "--record", recording,
+                                       is_ready=lambda _: part.exists(),
+                                       blow=signal.SIGTERM)
+        self.assertEqual(reported, "twinarm: interrupted; no partial files were left\n")
+        self.assertEqual(recording.read_bytes(), b"of before")
+        self.assertFalse(part.exists())
 
     def test_sigterm_ends_making_a_robot_between_two_links_without_any_file(self):
         recipe = self.recipe(100, 24)

@@ -97,6 +97,8 @@ class Victim:
 
     def strike(self, blow):
         """One life; returns how it ended."""
+        # A killed life before it may have left some, and this one not come so far as to replace them.
+        left_before = {p: p.stat().st_mtime_ns for p in self.files() if LEFT_OVER.search(p.name)}
         began, process = time.time_ns(), self.start()
         try:
             self.wait_in(process, self.random.uniform(0, 1.05 * (self.length or 1)))
@@ -112,10 +114,10 @@ class Victim:
             if process.poll() is None:
                 process.kill()
                 process.communicate()
-        self.judge(process, blow, before)
+        self.judge(process, blow, before, left_before)
         return process.returncode
 
-    def judge(self, process, blow, before):
+    def judge(self, process, blow, before, left_before):
         code, is_done = process.returncode, process.returncode == self.done_code
         # Before it listens to them, a soft blow ends it at once, with nothing made yet.
         stopped = (-blow,) if blow == signal.SIGKILL else (*self.stopped_codes, -blow)
@@ -124,6 +126,7 @@ class Victim:
         whole, left = [], []
         for path in self.files():
             (left if LEFT_OVER.search(path.name) else whole).append(path)
+        left = [path for path in left if left_before.get(path) != path.stat().st_mtime_ns]
         for path in whole:
             if not self.may_be_cut(path):
                 check_whole(path)

@@ -202,18 +202,17 @@ int run_program(int argc, char** argv) {
     check_stdout();
     return code;
   } catch (const InputError& error) {
-    const int code = report(error, as_json);
-    return is_interrupted() ? kInterrupted : code;            // Ctrl-C also ends reading a mesh
+    if (!is_interrupted()) return report(error, as_json);     // Ctrl-C also ends reading a mesh
   } catch (const std::filesystem::filesystem_error& error) {  // such as a name that is too long
     return report(InputError({{error.path1().string(), 0, "", error.code().message(),
                                "check the name and its folder", "file.unwritable"}}),
                   as_json);
-  } catch (const Interrupted&) {
-    print_error("twinarm: interrupted; no partial files were left\n");
-    return kInterrupted;
+  } catch (const Interrupted&) {  // told below
   } catch (const std::exception& error) {
     return report_internal(error, as_json);
   }
+  print_error("twinarm: interrupted; no partial files were left\n");
+  return kInterrupted;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ namespace {
   fs::create_directories(several.folder() / "inner/folder");
   std::ofstream(several.folder() / "inner/folder/file") << "text";
   UnfinishedFile removed(folder / "removed", folder / "removed.tmp");
-  UnfinishedFile kept(folder / "kept", folder / "kept.part", UnfinishedFile::Remains::keep);
+  UnfinishedFile kept(folder / "kept", folder / "kept.part");
+  kept.keep();
   UnfinishedFile finished(folder / "finished", folder / "finished.tmp");
   finished.finish();
   removed.write("half of it");
