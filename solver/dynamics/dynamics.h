@@ -63,11 +63,6 @@ void minv_times(const Model<S>& model, const std::vector<S>& b, const std::vecto
                 Workspace<S>& w) {
   passes<S>().minv_times(model, b, f, w);
 }
-// M^-1 b for the four b of r at once: r.y; f = 0.
-inline void minv_times(const Model<double>& model, const Workspace<double>& w,
-                       RightHandSides<Batch<4>>& r) {
-  passes<double>().minv_times_lanes(model, w, r);
-}
 // Forward kinematics, solver/passes/kinematics_pass.h: w.X0, w.v. World axes:
 // solver/dynamics/world_kinematics.h.
 template <class S>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "solver/model/workspace.h"
@@ -29,7 +30,7 @@ struct Kinematics {
  private:
   friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
   template <class F>
-  friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
+  friend void for_each_dof_between(const Model<double>&, const Kinematics&, std::size_t, int, F&&);
   BodyKinematics<double> in_body_axes_;
   struct Column {
     Vector3 w, v;
@@ -59,14 +60,20 @@ inline Matrix3 to_eigen(const Mat3<double>& A) {
 }
 
 // Calls f(velocity index, angular part, linear part at the joint's origin, joint's origin) for each
-// degree of freedom between the base and the body; world axes. Allocates nothing.
+// degree of freedom between the ancestor and the body; world axes. Allocates nothing.
 template <class F>
-void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
-  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
-    const auto i = static_cast<std::size_t>(b);
+void for_each_dof_between(const Model<double>& model, const Kinematics& k, std::size_t ancestor,
+                          int body, F&& f) {
+  for (auto i = static_cast<std::size_t>(body); i > ancestor;
+       i = static_cast<std::size_t>(model.parent[i])) {
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
       f(dof, k.columns_[dof].w, k.columns_[dof].v, k.X_WL[i].p);
   }
+}
+// The same between the base and the body.
+template <class F>
+void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
+  for_each_dof_between(model, k, 0, body, std::forward<F>(f));
 }
 
 }  // namespace twinarm

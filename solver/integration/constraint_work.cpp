@@ -37,7 +37,7 @@ void ConstraintWork::start_step() {
   pending_ = false;
 }
 
-void ConstraintWork::after_projection(const State<double>& x, const LoopProjection& projection,
+void ConstraintWork::after_projection(const State<double>& x, LoopProjection& projection,
                                       const LoopClosures& at_start) {
   if (is_same(x, unprojected_)) {
     pending_ = pending_ && is_same(x, after_);

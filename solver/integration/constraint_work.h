@@ -37,7 +37,7 @@ class ConstraintWork {
   // nothing in the pending one's result.
   void before_projection(const State<double>& x) { unprojected_ = x; }
   // `at_start`: loops as evaluated at the start of the step.
-  void after_projection(const State<double>& x, const LoopProjection& projection,
+  void after_projection(const State<double>& x, LoopProjection& projection,
                         const LoopClosures& at_start);
   void add_projection();  // adds the pending one
   void add_separation(const State<double>& before, const State<double>& after) {

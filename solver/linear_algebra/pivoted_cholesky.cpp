@@ -9,18 +9,17 @@ PivotedCholesky::PivotedCholesky(std::size_t capacity)
       A_(capacity * capacity),
       L_(capacity * capacity),
       scale_(capacity),
-      left_(capacity),
-      y_(capacity) {
+      left_(capacity) {
   chosen_.reserve(capacity);
 }
 
-void PivotedCholesky::factorise(std::size_t n, double tolerance) noexcept {
+void PivotedCholesky::factorise(std::size_t n, double tolerance, const double* size) noexcept {
   n_ = n;
   chosen_.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    const double d = A_[i * capacity_ + i];
+    const double left = A_[i * capacity_ + i], d = size ? size[i] : left;
     scale_[i] = d > 0 ? 1 / std::sqrt(d) : d == 0 ? 0 : d;  // propagates NaN
-    left_[i] = d == 0 ? 0 : 1;
+    left_[i] = d == 0 ? 0 : std::isnan(left / d) ? 1 : left / d;
   }
   while (chosen_.size() < n) {
     std::size_t pivot = 0;
@@ -48,23 +47,6 @@ void PivotedCholesky::add_column(std::size_t pivot) noexcept {
   L_[pivot * capacity_ + k] = root;
   left_[pivot] = -1;  // chosen
   chosen_.push_back(pivot);
-}
-
-void PivotedCholesky::solve(double* b) const noexcept {
-  const std::size_t r = chosen_.size();
-  for (std::size_t k = 0; k < r; ++k) {
-    const std::size_t p = chosen_[k];
-    double sum = scale_[p] * b[p];
-    for (std::size_t j = 0; j < k; ++j) sum -= L(p, j) * y_[j];
-    y_[k] = sum / L(p, k);
-  }
-  for (std::size_t i = 0; i < n_; ++i) b[i] = 0;
-  for (std::size_t k = r; k-- > 0;) {
-    double sum = y_[k];
-    for (std::size_t j = k + 1; j < r; ++j) sum -= L(chosen_[j], k) * y_[j];
-    y_[k] = sum / L(chosen_[k], k);
-  }
-  for (std::size_t k = 0; k < r; ++k) b[chosen_[k]] = scale_[chosen_[k]] * y_[k];
 }
 
 }  // namespace twinarm

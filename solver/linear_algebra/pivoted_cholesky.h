@@ -22,9 +22,29 @@ class PivotedCholesky {
   explicit PivotedCholesky(std::size_t capacity);
   // Both triangles.
   double& operator()(std::size_t row, std::size_t column) { return A_[row * capacity_ + column]; }
-  void factorise(std::size_t n, double tolerance = kDependent) noexcept;
-  // b := lambda with G lambda = b, for a b in the range of G; zero in dependent rows.
-  void solve(double* b) const noexcept;
+  // size: diagonal of G before the elimination of other constraints, for S and the tolerance; null:
+  // that of G.
+  void factorise(std::size_t n, double tolerance = kDependent,
+                 const double* size = nullptr) noexcept;
+  // b := lambda with G lambda = b, for a b in the range of G; zero in dependent rows. y: work space
+  // for rank numbers. T: a double or a vector of several right-hand sides.
+  template <class T>
+  void solve(T* b, T* y) const noexcept {
+    const std::size_t r = chosen_.size();
+    for (std::size_t k = 0; k < r; ++k) {
+      const std::size_t p = chosen_[k];
+      T sum = scale_[p] * b[p];
+      for (std::size_t j = 0; j < k; ++j) sum = sum - L(p, j) * y[j];
+      y[k] = (1 / L(p, k)) * sum;
+    }
+    for (std::size_t i = 0; i < n_; ++i) b[i] = T{};
+    for (std::size_t k = r; k-- > 0;) {
+      T sum = y[k];
+      for (std::size_t j = k + 1; j < r; ++j) sum = sum - L(chosen_[j], k) * y[j];
+      y[k] = (1 / L(chosen_[k], k)) * sum;
+    }
+    for (std::size_t k = 0; k < r; ++k) b[chosen_[k]] = scale_[chosen_[k]] * y[k];
+  }
   std::size_t rank() const { return chosen_.size(); }
 
  private:
@@ -35,7 +55,6 @@ class PivotedCholesky {
   std::vector<double> A_, L_;         // L: rows as in A, columns in pivot order
   std::vector<double> scale_, left_;  // S; remaining diagonal
   std::vector<std::size_t> chosen_;
-  mutable std::vector<double> y_;
 };
 
 }  // namespace twinarm

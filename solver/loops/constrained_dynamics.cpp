@@ -218,11 +218,13 @@ void ForwardDynamics::correct_accelerations(Workspace<double>& w) {
     std::fill(torques_.mimic.begin(), torques_.mimic.end(), 0);
     std::fill(torques_.loop.begin(), torques_.loop.end(), 0);
     bilateral_.add_forces(torques_.mimic, torques_.loop);
-    for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += torques_.mimic[d] + torques_.loop[d];
+  } else {
+    minv_times(*model_, b_, no_forces_, w);
   }
-  minv_times(*model_, b_, no_forces_, w);
-  for (std::size_t d = 0; d < model_->nv; ++d) w.qdd[d] += w.y[d];
-  for (std::size_t i = 1; i < model_->parent.size(); ++i) w.a[i] += w.dv[i];
+  const std::vector<double>& y = bilateral_.any() ? bilateral_.y() : w.y;
+  const std::vector<Motion<double>>& dv = bilateral_.any() ? bilateral_.dv() : w.dv;
+  for (std::size_t d = 0; d < model_->nv; ++d) w.qdd[d] += y[d];
+  for (std::size_t i = 1; i < model_->parent.size(); ++i) w.a[i] += dv[i];
 }
 
 }  // namespace twinarm

@@ -3,8 +3,8 @@
 //   M qdd = tau - C - b qd + f + A^T lambda,   A qdd = -gamma,
 // C the joint-space bias force, f Coulomb friction (joint_friction.h), lambda the multipliers of
 // mimic joints and loops (loop_forces.h). Cost: one ABA with all friction that does not depend on
-// qdd, one minv_times per row of A and per sticking dof, one for the correction; ABA alone without
-// friction and constraints. No allocation after the constructor and
+// qdd, one prepare() and solve() of the multipliers, one minv_times per sticking dof, one for the
+// correction; ABA alone without friction and constraints. No allocation after the constructor and
 // ConstraintForceSolver::set_loops.
 //
 // Coulomb friction follows one of three rules:

@@ -12,10 +12,6 @@ using Eigen::Index;
 Index index(std::size_t i) {
   return static_cast<Index>(i);
 }
-std::size_t last_shared_body(const Model<double>& model, int a, int b) {
-  while (a != b) (a > b ? a : b) = model.parent[static_cast<std::size_t>(a > b ? a : b)];
-  return static_cast<std::size_t>(a);
-}
 
 }  // namespace
 
@@ -42,10 +38,9 @@ LoopClosures::LoopClosures(const Model<double>& model, std::vector<LoopClosure> 
     } else if (facts.ends == LoopBetween::one_joint) {
       e.dofs = {model.iv[a]};
     } else {
-      const std::size_t shared = last_shared_body(model, loop.body_a, loop.body_b);
-      e.shared = shared == 0 ? 0 : model.iv[shared] + model.dofs(shared);
+      e.shared = model.shared_ancestor(a, b);
       for (const std::size_t end : {a, b})
-        for (std::size_t i = end; i > shared; i = static_cast<std::size_t>(model.parent[i]))
+        for (std::size_t i = end; i > e.shared; i = static_cast<std::size_t>(model.parent[i]))
           for (std::size_t d = model.iv[i]; d < model.iv[i] + model.dofs(i); ++d)
             e.dofs.push_back(d);
     }

@@ -75,7 +75,7 @@ struct LoopWrench {
 
 struct LoopEnds {
   std::size_t first_row = 0;
-  std::size_t shared = 0;              // velocities below this index move both ends
+  std::size_t shared = 0;              // deepest body whose joints move both ends
   std::vector<std::size_t> dofs;       // velocities of one end only
   Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
   Vector3 p_WC = Vector3::Zero();      // origin of C_b
@@ -122,8 +122,8 @@ class LoopClosures {
 // Allowed position error of loops in the initial state [m, rad]; removed by the first projection.
 inline constexpr double kMaxInitialError = 1e-6;
 
-// Bound on constraint rows x velocities: forward dynamics with loops keeps several dense matrices
-// of this size (together 1 GiB).
+// Bound on constraint rows x velocities: the size of J, which is dense, and of the factors if all
+// loops overlap (together 1 GiB).
 inline constexpr std::size_t kMaxLoopEntries = 2400000;
 
 // Throws one InputError with all errors: more entries than kMaxLoopEntries, body indices, ends

@@ -3,29 +3,42 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
+namespace {
+
+void add(const std::vector<double>& y, std::vector<double>& sum) {
+  for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += y[d];
+}
+
+}  // namespace
 
 ConstraintForceSolver::ConstraintForceSolver(const Model<double>& model)
     : model_(&model),
-      rows_(model.mimics.size()),
-      factors_(rows_),
-      Z_(rows_ * model.nv),
-      lambda_(rows_),
+      elimination_(elimination_of_rows()),
       no_forces_(model.nv),
-      of_rows_(model) {}
+      forces_(model.nv) {}
 
 void ConstraintForceSolver::set_loops(LoopClosures loops) {
   loops_ = std::move(loops);
-  rows_ = model_->mimics.size() + loops_.rows();
-  const std::size_t max_rows = rows_ + (loops_.any() ? model_->nv : 0);
-  factors_ = PivotedCholesky(max_rows);
-  Z_.assign(max_rows * model_->nv, 0);
-  lambda_.assign(max_rows, 0);
-  held_.clear();
-  held_.reserve(max_rows);
+  elimination_ = elimination_of_rows();
+}
+
+// Each mimic joint has a batch, each loop one or two.
+ConstraintElimination ConstraintForceSolver::elimination_of_rows() {
+  std::vector<std::vector<std::size_t>> dofs;
+  rows_.clear();
+  for (const Mimic& m : model_->mimics) {
+    rows_.push_back(4 * dofs.size());
+    dofs.push_back({m.follower, m.leader});
+  }
+  for (std::size_t r = 0; r < loops_.rows(); ++r) {
+    const std::size_t lane = (r - loops_.first_row(loops_.loop_of(r))) % 4;
+    if (lane == 0) dofs.push_back(loops_.dofs_of(r));
+    rows_.push_back(4 * (dofs.size() - 1) + lane);
+  }
+  return {*model_, dofs};
 }
 
 // Calls f(dof, value) for the entries of a row of A.
@@ -35,16 +48,14 @@ void ConstraintForceSolver::for_each_entry(std::size_t row, F&& f) const {
     const Mimic& m = model_->mimics[row];
     f(m.follower, 1.0);
     f(m.leader, -m.ratio);
-  } else if (row < rows_) {
+  } else {
     const std::size_t r = row - model_->mimics.size();
     for (const std::size_t d : loops_.dofs_of(r))
       f(d, loops_.J()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(d)));
-  } else {
-    f(held_[row - rows_], 1.0);
   }
 }
 
-double ConstraintForceSolver::row_times(std::size_t row, const double* v) const {
+double ConstraintForceSolver::row_times(std::size_t row, const std::vector<double>& v) const {
   double sum = 0;
   for_each_entry(row, [&](std::size_t d, double entry) { sum += entry * v[d]; });
   return sum;
@@ -53,92 +64,74 @@ double ConstraintForceSolver::row_times(std::size_t row, const double* v) const 
 void ConstraintForceSolver::prepare(const Workspace<double>& w,
                                     const std::vector<std::size_t>& held,
                                     double tolerance) noexcept {
-  constexpr std::size_t kLanes = 4;
-  held_.assign(held.begin(), held.end());
-  const std::size_t n = rows_ + held_.size();
-  for (std::size_t first = 0; first < n; first += kLanes) {
-    const std::size_t end = std::min(first + kLanes, n);
-    for (std::size_t j = first; j < end; ++j)
-      for_each_entry(j, [&](std::size_t d, double entry) {
-        set_lane(of_rows_.b[d], j - first, of_rows_.b[d][static_cast<int>(j - first)] + entry);
-      });
-    minv_times(*model_, w, of_rows_);
-    for (std::size_t j = first; j < end; ++j) {
-      double* const Z = &Z_[j * model_->nv];
-      for (std::size_t d = 0; d < model_->nv; ++d) Z[d] = lane_of(of_rows_.y[d], j - first);
-      for_each_entry(j, [&](std::size_t d, double) { of_rows_.b[d] = 0; });
-      for (std::size_t i = 0; i <= j; ++i) factors_(i, j) = factors_(j, i) = row_times(i, Z);
-    }
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    std::size_t k = 0;
+    for_each_entry(
+        j, [&](std::size_t, double entry) { elimination_.set_entry(rows_[j], k++, entry); });
   }
-  factors_.factorise(n, tolerance);
+  elimination_.factorise(w, held, tolerance);
 }
 
 void ConstraintForceSolver::solve(const std::vector<double>& a,
                                   const std::vector<double>& b) noexcept {
   const std::size_t mimics = model_->mimics.size();
-  for (std::size_t j = 0; j < rows_ + held_.size(); ++j) {
-    const double* Z = &Z_[j * model_->nv];
-    lambda_[j] = -row_times(j, a.data());
-    if (j >= mimics && j < rows_)
-      lambda_[j] -= loops_.gamma()[static_cast<Eigen::Index>(j - mimics)];
-    for (std::size_t d = 0; d < model_->nv; ++d) lambda_[j] -= Z[d] * b[d];
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    const double gamma = j < mimics ? 0 : loops_.gamma()[static_cast<Eigen::Index>(j - mimics)];
+    elimination_.set_s(rows_[j], -row_times(j, a) - gamma);
   }
-  factors_.solve(lambda_.data());
-}
-
-void ConstraintForceSolver::add_accelerations(std::vector<double>& y) const noexcept {
-  for (std::size_t j = 0; j < rows_ + held_.size(); ++j) {
-    if (lambda_[j] == 0) continue;
-    const double* Z = &Z_[j * model_->nv];
-    for (std::size_t d = 0; d < model_->nv; ++d) y[d] += Z[d] * lambda_[j];
-  }
+  elimination_.solve(b);
 }
 
 void ConstraintForceSolver::add_forces(std::vector<double>& mimic,
                                        std::vector<double>& loop) const {
-  for (std::size_t j = 0; j < rows_; ++j) {
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
     std::vector<double>& tau = j < model_->mimics.size() ? mimic : loop;
-    for_each_entry(j, [&](std::size_t d, double entry) { tau[d] += entry * lambda_[j]; });
+    const double lambda = elimination_.lambda(rows_[j]);
+    for_each_entry(j, [&](std::size_t d, double entry) { tau[d] += entry * lambda; });
   }
 }
 
+void ConstraintForceSolver::project_acceleration(std::vector<double>& a) noexcept {
+  solve(a, no_forces_);
+  add(y(), a);
+}
+
 void ConstraintForceSolver::project(std::vector<double>& y) noexcept {
-  for (std::size_t j = 0; j < rows_ + held_.size(); ++j) lambda_[j] = -row_times(j, y.data());
-  factors_.solve(lambda_.data());
-  add_accelerations(y);
+  for (std::size_t j = 0; j < rows_.size(); ++j) elimination_.set_s(rows_[j], -row_times(j, y));
+  elimination_.solve(no_forces_);
+  add(elimination_.y(), y);
 }
 
 void ConstraintForceSolver::correction(const Eigen::VectorXd& residual,
                                        std::vector<double>& out) noexcept {
   const std::size_t mimics = model_->mimics.size();
-  for (std::size_t j = 0; j < rows_ + held_.size(); ++j)
-    lambda_[j] = j >= mimics && j < rows_ ? -residual[static_cast<Eigen::Index>(j - mimics)] : 0;
-  factors_.solve(lambda_.data());
-  std::fill(out.begin(), out.end(), 0);
-  add_accelerations(out);
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    elimination_.set_s(rows_[j], j < mimics ? 0 : -residual[static_cast<Eigen::Index>(j - mimics)]);
+  elimination_.solve(no_forces_);
+  out = y();
 }
 
 void ConstraintForceSolver::correction_of_loop(std::size_t loop, const std::vector<double>& lambda,
-                                               std::vector<double>& out) const {
-  std::fill(out.begin(), out.end(), 0);
+                                               std::vector<double>& out) noexcept {
+  std::fill(forces_.begin(), forces_.end(), 0);
   for (std::size_t r = loops_.first_row(loop); r < loops_.rows() && loops_.loop_of(r) == loop;
        ++r) {
-    const double* Z = &Z_[(model_->mimics.size() + r) * model_->nv];
-    for (std::size_t d = 0; d < model_->nv; ++d) out[d] += Z[d] * lambda[r];
+    std::size_t k = 0;
+    for (const std::size_t d : loops_.dofs_of(r))
+      forces_[d] += elimination_.entry(rows_[model_->mimics.size() + r], k++) * lambda[r];
   }
-}
-
-void ConstraintForceSolver::copy_factors(const ConstraintForceSolver& from) noexcept {
-  Z_ = from.Z_;
-  factors_ = from.factors_;
-  held_ = from.held_;
+  elimination_.minv_times(forces_);
+  out = y();
 }
 
 Eigen::VectorXd ConstraintForceSolver::lambda_of_loops() const {
-  Eigen::VectorXd lambda(static_cast<Eigen::Index>(loops_.rows()));
-  for (Eigen::Index r = 0; r < lambda.size(); ++r)
-    lambda[r] = lambda_[model_->mimics.size() + static_cast<std::size_t>(r)];
-  return min_solution(loops_.J().transpose(), loops_.J().transpose() * lambda, 1e-9);
+  std::vector<double> lambda(loops_.rows());
+  add_lambda(1, lambda);
+  return min_solution(
+      loops_.J().transpose(),
+      loops_.J().transpose() * Eigen::Map<const Eigen::VectorXd>(
+                                   lambda.data(), static_cast<Eigen::Index>(lambda.size())),
+      1e-9);
 }
 
 }  // namespace twinarm

@@ -49,8 +49,7 @@ class LoopProjection {
   const std::vector<double>& correction_qd() const { return correction_qd_; }
   const std::vector<double>& lambda_qd() const { return lambda_qd_; }  // impulses of the rows
   // Contribution of one loop to both corrections.
-  void correction_of_loop(std::size_t loop, std::vector<double>& dq,
-                          std::vector<double>& dqd) const {
+  void correction_of_loop(std::size_t loop, std::vector<double>& dq, std::vector<double>& dqd) {
     forces_.correction_of_loop(loop, lambda_q_, dq);
     forces_.correction_of_loop(loop, lambda_qd_, dqd);
   }

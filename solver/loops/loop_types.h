@@ -54,11 +54,9 @@ struct LoopRows {
   template <class F>
   void for_each_dof(F&& f) const {
     for (const double sign : {1.0, -1.0})
-      for_each_dof_below(
-          model, k, sign > 0 ? loop.body_a : loop.body_b,
-          [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-            if (dof >= e.shared) f(sign, static_cast<Index>(dof), w, v, o);
-          });
+      for_each_dof_between(model, k, e.shared, sign > 0 ? loop.body_a : loop.body_b,
+                           [&](std::size_t dof, const Vector3& w, const Vector3& v,
+                               const Vector3& o) { f(sign, static_cast<Index>(dof), w, v, o); });
   }
 };
 

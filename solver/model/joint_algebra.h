@@ -18,6 +18,11 @@ VecN<S, n> operator-(const VecN<S, n>& a, const VecN<S, n>& b) {
   return difference;
 }
 template <class S, std::size_t n>
+VecN<S, n> operator+(VecN<S, n> a, const VecN<S, n>& b) {
+  for (std::size_t k = 0; k < n; ++k) a[k] = a[k] + b[k];
+  return a;
+}
+template <class S, std::size_t n>
 VecN<S, n> unit_vector(std::size_t k) {
   VecN<S, n> e;
   for (std::size_t i = 0; i < n; ++i) e[i] = S(i == k ? 1 : 0);

@@ -71,6 +71,10 @@ struct ModelTree {
   std::vector<Mimic> mimics;
 
   std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
+  std::size_t shared_ancestor(std::size_t a, std::size_t b) const {  // a or b itself included
+    while (a != b) (a > b ? a : b) = static_cast<std::size_t>(parent[std::max(a, b)]);
+    return a;
+  }
   int body_count() const { return static_cast<int>(parent.size()); }  // including the base
   // Index of the body, and of the child body of the joint; -1: not found. O(log n).
   int find_body(const std::string& name) const {

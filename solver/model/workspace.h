@@ -178,17 +178,6 @@ struct Workspace : BodyKinematics<S> {
   }
 };
 
-// Several right-hand sides of M^-1 b, one in each lane of R, and the products (minv_times_lanes).
-template <class R>
-struct RightHandSides {
-  std::vector<R> b, y;      // by velocity
-  std::vector<Force<R>> p;  // by body, as in Workspace
-  std::vector<Motion<R>> dv;
-
-  explicit RightHandSides(const ModelTree& model)
-      : b(model.nv, R(0)), y(model.nv), p(model.parent.size()), dv(p.size()) {}
-};
-
 // Computes and returns Xr of body i, from Xup of the body and Xr of its parent.
 template <class S>
 Transform<S> place(const Model<S>& model, std::size_t i, Workspace<S>& w) {

@@ -23,61 +23,51 @@ struct BodyFactors {
   std::array<Force<R>, Joint::nv> U;
   Spd<R, Joint::nv> D;
 
-  BodyFactors(const Model<S>& model, const Workspace<S>& w, std::size_t i)
-      : X(convert<R>(w.Xup[i])), D(slice_spd<Joint::nv, R>(w.D_factors, w.iD[i])) {
+  // From: Workspace, or a type with these members.
+  template <class From>
+  BodyFactors(const Model<S>& model, const From& w, std::size_t i, const std::vector<Force<S>>& U_,
+              const std::vector<S>& D_factors)
+      : X(convert<R>(w.Xup[i])), D(slice_spd<Joint::nv, R>(D_factors, w.iD[i])) {
     const std::size_t iv = model.iv[i];
     std::array<Motion<R>, Joint::nv> columns;
     for (std::size_t k = 0; k < Joint::nv; ++k) {
       columns[k] = convert<R>(w.S_[iv + k]);
-      U[k] = convert<R>(w.U[iv + k]);
+      U[k] = convert<R>(U_[iv + k]);
     }
     load_subspace(columns.data(), S_i);
   }
 };
-template <class R, class S, class F>
+template <class S, class F>
 void visit_factors(const Model<S>& model, const Workspace<S>& w, std::size_t i, F&& f) {
-  visit_joint<R>(model.joint[i], R(model.pitch[i]),
-                 [&](auto joint) { f(joint, BodyFactors<R, S, decltype(joint)>(model, w, i)); });
-}
-
-template <class S, class R>
-void minv_sweeps(const Model<S>& model, const Workspace<S>& w, const std::vector<R>& b,
-                 std::vector<Force<R>>& p, std::vector<Motion<R>>& dv, std::vector<R>& y) {
-  const std::size_t n_bodies = model.parent.size();
-  for (std::size_t i = n_bodies; i-- > 1;)
-    visit_factors<R>(model, w, i, [&](auto joint, const auto& of) {
-      const std::size_t iv = model.iv[i];
-      const auto u = slice<joint.nv>(b, iv) - transpose_times(of.S_i, p[i]);
-      const auto y_i = solve(of.D, u);
-      p[static_cast<std::size_t>(model.parent[i])] +=
-          transpose_times(of.X, p[i] + times(of.U, y_i));
-      store(y_i, y, iv);
-    });
-
-  dv[0] = {};
-  for (std::size_t i = 1; i < n_bodies; ++i)
-    visit_factors<R>(model, w, i, [&](auto joint, const auto& of) {
-      const std::size_t iv = model.iv[i];
-      const Motion<R> dv_i = of.X * dv[static_cast<std::size_t>(model.parent[i])];
-      const auto y_i = slice<joint.nv>(y, iv) - solve(of.D, transpose_times(of.U, dv_i));
-      dv[i] = dv_i + times(of.S_i, y_i);
-      store(y_i, y, iv);
-    });
+  visit_joint(model, i, [&](auto joint) {
+    f(joint, BodyFactors<S, S, decltype(joint)>(model, w, i, w.U, w.D_factors));
+  });
 }
 
 template <class S>
 [[gnu::flatten]] void minv_times(const Model<S>& model, const std::vector<S>& b,
                                  const std::vector<Force<S>>& f, Workspace<S>& w) {
-  for (std::size_t i = 0; i < f.size(); ++i) w.p[i] = -f[i];
-  minv_sweeps(model, w, b, w.p, w.dv, w.y);
-}
+  const std::size_t n_bodies = model.parent.size();
+  for (std::size_t i = 0; i < n_bodies; ++i) w.p[i] = -f[i];
+  for (std::size_t i = n_bodies; i-- > 1;)
+    visit_factors(model, w, i, [&](auto joint, const auto& of) {
+      const std::size_t iv = model.iv[i];
+      const auto u = slice<joint.nv>(b, iv) - transpose_times(of.S_i, w.p[i]);
+      const auto y = solve(of.D, u);
+      w.p[static_cast<std::size_t>(model.parent[i])] +=
+          transpose_times(of.X, w.p[i] + times(of.U, y));
+      store(y, w.y, iv);
+    });
 
-// Several b at once, without f.
-template <class S, class R>
-[[gnu::flatten]] void minv_times_lanes(const Model<S>& model, const Workspace<S>& w,
-                                       RightHandSides<R>& r) {
-  std::ranges::fill(r.p, Force<R>{});
-  minv_sweeps(model, w, r.b, r.p, r.dv, r.y);
+  w.dv[0] = {};
+  for (std::size_t i = 1; i < n_bodies; ++i)
+    visit_factors(model, w, i, [&](auto joint, const auto& of) {
+      const std::size_t iv = model.iv[i];
+      const Motion<S> dv = of.X * w.dv[static_cast<std::size_t>(model.parent[i])];
+      const auto y = slice<joint.nv>(w.y, iv) - solve(of.D, transpose_times(of.U, dv));
+      w.dv[i] = dv + times(of.S_i, y);
+      store(y, w.y, iv);
+    });
 }
 
 }  // namespace twinarm::TWINARM_ISA

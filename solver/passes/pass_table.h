@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "solver/model/matrix_workspace.h"
-#include "solver/spatial/batch.h"
 
 namespace twinarm {
+
+struct ConstraintWorkspace;
 
 // Those whose results are matrices, of double only.
 template <class S>
@@ -19,8 +20,12 @@ struct MatrixPasses<double> {
                            std::span<double>);
   void (*minv_matrix)(const Model<double>&, const State<double>&, Workspace<double>&,
                       MatrixWorkspace<double>&, std::span<double>);
-  void (*minv_times_lanes)(const Model<double>&, const Workspace<double>&,
-                           RightHandSides<Batch<4>>&);
+  void (*constraint_factors)(const Model<double>&, const Workspace<double>&, ConstraintWorkspace&,
+                             std::size_t, std::size_t);
+  void (*constraint_forces)(const Model<double>&, ConstraintWorkspace&, const std::vector<double>&,
+                            std::size_t, std::size_t);
+  void (*constraint_accelerations)(const Model<double>&, ConstraintWorkspace&, std::size_t,
+                                   std::size_t);
   void (*aba_derivatives)(const Model<double>&, const State<double>&, const Forces<double>&,
                           Workspace<double>&, MatrixWorkspace<double>&, AbaDerivatives<double>&);
 };

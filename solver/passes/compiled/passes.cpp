@@ -2,6 +2,7 @@
 // (TWINARM_ISA). Compiled once per pair in solver/passes/compiled/CMakeLists.txt.
 #include "solver/passes/aba.h"
 #include "solver/passes/aba_derivatives.h"
+#include "solver/passes/constraint_sweeps.h"
 #include "solver/passes/crba.h"
 #include "solver/passes/kinematics_pass.h"
 #include "solver/passes/minv.h"
@@ -22,7 +23,9 @@ const Passes<TWINARM_SCALAR>& table() {
     if constexpr (std::is_same_v<S, double>) {
       passes.rnea_derivatives = &rnea_derivatives<S>;
       passes.minv_matrix = &minv_matrix<S>;
-      passes.minv_times_lanes = &minv_times_lanes<S, Batch<4>>;
+      passes.constraint_factors = &constraint_factors<S>;
+      passes.constraint_forces = &constraint_forces<S>;
+      passes.constraint_accelerations = &constraint_accelerations<S>;
       passes.aba_derivatives = &aba_derivatives<S>;
     }
     passes.aba = [](const Model<S>& model, const State<S>& x, const Forces<S>& forces,

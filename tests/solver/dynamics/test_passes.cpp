@@ -199,32 +199,6 @@ TEST_CASE("minv_matrix is the inverse of M of either crba to rounding, symmetric
   CHECK(forms <= 1e-14);
 }
 
-TEST_CASE(
-    "minv_times of four right-hand sides at once is that of each to rounding, and to the bit "
-    "without FMA") {
-  Random random(9);
-  for (const auto& types : lists_of_types())
-    for (int n = 0; n < 10; ++n) {
-      const Packed<double> p(random, random_tree(random, random.integer(1, 12), types));
-      for (const Isa isa : levels_of<double>()) {
-        const Passes<double>& pass = passes<double>(isa);
-        Workspace<double> w(p.model);
-        pass.aba(p.model, p.x[0], p.forces[0], w);
-        RightHandSides<Batch<4>> four(p.model);
-        for (Batch<4>& b : four.b)
-          for (int k = 0; k < 4; ++k) b.set(k, random.uniform(-1, 1));
-        pass.minv_times_lanes(p.model, w, four);
-        for (int k = 0; k < 4; ++k) {
-          const VectorXd b = lane_of(four.b, k);
-          pass.minv_times(p.model, {b.begin(), b.end()},
-                          std::vector<Force<double>>(p.model.parent.size()), w);
-          const VectorXd one = lane_of(w.y, 0), of_four = lane_of(four.y, k);
-          CHECK((of_four - one).norm() <= (isa == Isa::generic ? 0 : 1e-12 * one.norm()));
-        }
-      }
-    }
-}
-
 TEST_CASE("minv_times with wrenches on bodies is M^-1 J^T f, with their accelerations") {
   Random random(6);
   for (const auto& types : lists_of_types())

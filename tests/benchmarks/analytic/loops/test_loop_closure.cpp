@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
@@ -222,12 +223,13 @@ TEST_CASE("loop factors: rank and solution of singular systems of any scale, aga
                       VectorXd(scale.asDiagonal() * VectorXd::NullaryExpr(n, noise)));
     const VectorXd wanted = b;
     PivotedCholesky factors(9);
+    std::array<double, 9> work;
     CHECK(allocations_in([&] {
             for (Index i = 0; i < n; ++i)
               for (Index j = 0; j < n; ++j)
                 factors(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = G(i, j);
             factors.factorise(static_cast<std::size_t>(n));
-            factors.solve(b.data());
+            factors.solve(b.data(), work.data());
           }) == 0);
     CHECK(factors.rank() == static_cast<std::size_t>(r));
     CHECK(VectorXd(scale.cwiseInverse().asDiagonal() * VectorXd(G * b - wanted)).norm() < 1e-8);
