@@ -33,14 +33,14 @@ void PivotedCholesky::factorise(std::size_t n, double tolerance, const double* s
 // Computes the next column of L.
 void PivotedCholesky::add_column(std::size_t pivot) noexcept {
   const std::size_t k = chosen_.size();
-  const double root = std::sqrt(left_[pivot]);
+  const double root = std::sqrt(left_[pivot]), inverse = 1 / root;
   const double* of_pivot = &L_[pivot * capacity_];
   for (std::size_t i = 0; i < n_; ++i) {
     double* row = &L_[i * capacity_];
-    if (i == pivot || left_[i] < 0) continue;
+    if (i == pivot || left_[i] <= 0) continue;  // chosen, or zero
     double sum = scale_[i] * A_[i * capacity_ + pivot] * scale_[pivot];
     for (std::size_t j = 0; j < k; ++j) sum -= row[j] * of_pivot[j];
-    row[k] = sum / root;
+    row[k] = sum * inverse;
     left_[i] -= row[k] * row[k];
     if (left_[i] < 0) left_[i] = 0;
   }

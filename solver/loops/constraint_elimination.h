@@ -52,19 +52,20 @@ class ConstraintElimination {
   using Rows = ConstraintWorkspace::Rows;
   using Lists = std::vector<std::vector<std::size_t>>;
   struct Group {  // coupled rows, eliminated at a body
-    std::size_t body = 0;
-    std::vector<std::size_t> closed, open;  // batches e and o
-    std::vector<std::size_t> K, K_open;     // indices of their K and of blocks of G
-    std::vector<std::size_t> G, G_mixed, G_open;
+    std::size_t body = 0, open = 0;
+    std::vector<std::size_t> batch;  // o, as many as `open`, then e
+    std::vector<std::size_t> K, G;   // indices: of K, of blocks of G for all pairs
     PivotedCholesky factors{0};
     std::vector<Force<double>> GinvK{};  // G_ee^-1 K_e
     std::vector<Rows> GinvG{};           // G_ee^-1 G_eo, by open batch
-    std::size_t rows() const { return 4 * closed.size(); }
+    std::size_t rows() const { return 4 * (batch.size() - open); }
+    std::size_t batch_of(std::size_t row) const { return batch[open + row / 4]; }
   };
   struct Structure;
+  const Rows& G_row(const Group& of, std::size_t row, std::size_t index) const;
   Force<double> row_of_K(const Group& of, std::size_t row) const;
   void factorise(Group& of, double tolerance);
-  void eliminate(const Group& of);            // p and s
+  void eliminate(const Group& of);  // p and s
   void determine_multipliers(const Group& of);
 
   const Model<double>* model_;

@@ -5,7 +5,8 @@
 // A row with entries E_i in joint i is carried from the tips to the base as K_i a_i on the spatial
 // acceleration of body i, together with what follows from the joints below:
 //   tips to base   L = K_i S_i + E_i,   G += L D_i^-1 L^T,   K_p += (K_i - L D_i^-1 U_i^T) X_i
-//                  u_i = b_i - S_i^T p_i,   s -= L D_i^-1 u_i,   p_p += X_i^T (p_i + U_i D_i^-1 u_i)
+//                  u_i = b_i - S_i^T p_i,   s -= L D_i^-1 u_i,   p_p += X_i^T (p_i + U_i D_i^-1
+//                  u_i)
 //   base to tips   y_i = D_i^-1 (u_i - U_i^T X_i dv_p + L^T lambda),   dv_i = X_i dv_p + S_i y_i
 // At the body where all entries of a row have been seen, solver/loops/constraint_elimination.h
 // eliminates its lambda, which adds dIA to IA there; U and D of that body and its ancestors change.
@@ -55,9 +56,9 @@ void visit_factors(const Model<S>& model, const ConstraintWorkspace::Factors& c,
 
 // K, G and the factors of the bodies from first to before end.
 template <class S>
-[[gnu::flatten]] void constraint_factors(const Model<S>& model,
-                                                const Workspace<S>& w, ConstraintWorkspace& c,
-                                                std::size_t first, std::size_t end) {
+[[gnu::flatten]] void constraint_factors(const Model<S>& model, const Workspace<S>& w,
+                                         ConstraintWorkspace& c, std::size_t first,
+                                         std::size_t end) {
   using Rows = ConstraintWorkspace::Rows;
   for (std::size_t i = end; i-- > first;) {
     if (c.f.is_changed[i])
@@ -96,8 +97,8 @@ template <class S>
 
 template <class S>
 [[gnu::flatten]] void constraint_forces(const Model<S>& model, ConstraintWorkspace& c,
-                                               const std::vector<S>& b, std::size_t first,
-                                               std::size_t end) {
+                                        const std::vector<S>& b, std::size_t first,
+                                        std::size_t end) {
   for (std::size_t i = end; i-- > first;)
     visit_factors<S>(model, c.f, i, [&](auto joint, const auto& of) {
       const std::size_t iv = model.iv[i];
@@ -116,9 +117,8 @@ template <class S>
 }
 
 template <class S>
-[[gnu::flatten]] void constraint_accelerations(const Model<S>& model,
-                                                      ConstraintWorkspace& c, std::size_t first,
-                                                      std::size_t end) {
+[[gnu::flatten]] void constraint_accelerations(const Model<S>& model, ConstraintWorkspace& c,
+                                               std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i)
     visit_factors<S>(model, c.f, i, [&](auto joint, const auto& of) {
       const std::size_t iv = model.iv[i];

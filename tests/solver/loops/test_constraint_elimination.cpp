@@ -112,7 +112,8 @@ Mechanism linkage(Linkage type, int count) {
 }
 
 // A row of a mimic joint, a loop or a held velocity each.
-MatrixXd rows_of(const Model<double>& model, const MatrixXd& J, const std::vector<std::size_t>& held) {
+MatrixXd rows_of(const Model<double>& model, const MatrixXd& J,
+                 const std::vector<std::size_t>& held) {
   const auto mimics = index(model.mimics.size());
   MatrixXd A = MatrixXd::Zero(mimics + J.rows() + index(held.size()), index(model.nv));
   for (Index r = 0; r < mimics; ++r) {
@@ -121,8 +122,7 @@ MatrixXd rows_of(const Model<double>& model, const MatrixXd& J, const std::vecto
     A(r, index(m.leader)) = -m.ratio;
   }
   A.middleRows(mimics, J.rows()) = J;
-  for (std::size_t h = 0; h < held.size(); ++h)
-    A(mimics + J.rows() + index(h), index(held[h])) = 1;
+  for (std::size_t h = 0; h < held.size(); ++h) A(mimics + J.rows() + index(h), index(held[h])) = 1;
   return A;
 }
 
@@ -200,15 +200,14 @@ bool check(const Mechanism& m, Random& random) {
   solver.add_forces(mimic, loop);
   const VectorXd forces = vector_of(mimic) + vector_of(loop);
   CHECK(error(forces, A.transpose() * wanted.tail(A.rows())) < 1e-10);
-  const auto rank = static_cast<std::size_t>(
-      A.rows() == 0 ? 0 : pivoted_columns(A.transpose(), 1e-9).rank);
+  const auto rank =
+      static_cast<std::size_t>(A.rows() == 0 ? 0 : pivoted_columns(A.transpose(), 1e-9).rank);
   CHECK(solver.rank() == rank);
 
   // A correction with held velocities that the rows allow: some z fulfils them.
   solver.prepare(w, m.held);
   const MatrixXd fixed = rows_of(model, MatrixXd(0, M.rows()), m.held);
-  const VectorXd z =
-      fixed.rows() == 0 ? v : VectorXd(v - min_solution(fixed, fixed * v, 1e-12));
+  const VectorXd z = fixed.rows() == 0 ? v : VectorXd(v - min_solution(fixed, fixed * v, 1e-12));
   VectorXd s = VectorXd::Zero(with_held.rows());
   s.segment(index(model.mimics.size()), J.rows()) = J * z;
   solver.correction(-J * z, y);
