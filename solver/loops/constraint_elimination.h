@@ -12,8 +12,6 @@
 // rows determine its motion. No allocation after the constructor.
 #pragma once
 
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "solver/linear_algebra/pivoted_cholesky.h"

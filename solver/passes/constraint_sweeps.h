@@ -4,9 +4,9 @@
 //   M y = b + A^T lambda,   A y = s
 // A row with entries E_i in joint i is carried from the tips to the base as K_i a_i on the spatial
 // acceleration of body i, together with what follows from the joints below:
-//   tips to base   L = K_i S_i + E_i,   G += L D_i^-1 L^T,   K_p += (K_i - L D_i^-1 U_i^T) X_i
-//                  u_i = b_i - S_i^T p_i,   s -= L D_i^-1 u_i,   p_p += X_i^T (p_i + U_i D_i^-1
-//                  u_i)
+//   tips to base   L = K_i S_i + E_i,   u_i = b_i - S_i^T p_i,
+//                  G += L D_i^-1 L^T,   K_p += (K_i - L D_i^-1 U_i^T) X_i,
+//                  s -= L D_i^-1 u_i,   p_p += X_i^T (p_i + U_i D_i^-1 u_i)
 //   base to tips   y_i = D_i^-1 (u_i - U_i^T X_i dv_p + L^T lambda),   dv_i = X_i dv_p + S_i y_i
 // At the body where all entries of a row have been seen, solver/loops/constraint_elimination.h
 // eliminates its lambda, which adds dIA to IA there; U and D of that body and its ancestors change.
