@@ -21,7 +21,10 @@ namespace twinarm {
 
 class ConstraintElimination {
  public:
-  // dofs: those with entries, for each batch of four rows. The model must outlive it.
+  // Of the couplings of rows, which grow with the square of the rows that are open at one joint.
+  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+  // dofs: those with entries, for each batch of four rows. The model must outlive it. Throws
+  // InputError above kMaxBytes.
   ConstraintElimination(const Model<double>& model,
                         const std::vector<std::vector<std::size_t>>& dofs);
 

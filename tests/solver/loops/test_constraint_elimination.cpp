@@ -270,3 +270,20 @@ TEST_CASE("loops: entries and couplings of rows grow linearly with the number of
     CHECK(double(bytes_of(64)) < 2.1 * double(bytes_of(32)));
   }
 }
+
+TEST_CASE(
+    "loops: couplings of rows that would need too much memory are refused before it is taken") {
+  ModelBuilder builder;
+  for (int i = 0; i < 1000; ++i)
+    builder.add_body("body" + std::to_string(i), i, "joint" + std::to_string(i),
+                     JointType::revolute, {}, Vector3::UnitX(),
+                     {1, {0.5, 0, 0}, 0.1 * Matrix3::Identity()});
+  const Model<double> model = builder.build();
+  std::vector<std::vector<std::size_t>> dofs;
+  for (std::size_t i = 1; i < 1000; ++i) dofs.push_back({i, 0});
+  const std::size_t bytes = bytes_in([&] {
+    CHECK_THROWS_WITH_AS(ConstraintElimination(model, dofs), doctest::Contains("too many loops"),
+                         InputError);
+  });
+  CHECK(bytes < 100u << 20);
+}
