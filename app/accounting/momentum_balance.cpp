@@ -81,9 +81,9 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
       add_given(weight * h, x);
       add_couplings(weight * h, x, side);
       if (trees_.empty() && loop_count_ == 0) return;
-      const IntegrationState at = evaluate_at(after, x);
-      add_loops(weight * h, at, x.qd, 0);
-      add_trees(weight * h, at);
+      evaluate_at(after, x, copy_);
+      add_loops(weight * h, *copy_, x.qd, 0);
+      add_trees(weight * h, *copy_);
     };
     add(now_, weights.front(), Side::after);
     for (std::size_t s = 0; s < inner.size(); ++s) add(inner[s], weights[s + 1], Side::after);

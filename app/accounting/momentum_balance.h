@@ -15,6 +15,7 @@
 // event-driven steps from the change of the tree's momentum.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ class MomentumBalance {
   State<double> start_, now_;
   EnergyMomentum at_start_;
   Kinematics k_, k_end_;
+  std::optional<IntegrationState> copy_;
   mutable Workspace<double> w_;
 };
 

@@ -53,12 +53,12 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const St
     if (spec.discretization != Discretization::implicit || !spec.is_external() || !spec.is_linear())
       continue;
     const TargetRadius radius =
-        nearest_target_radius(simulation.mechanism().model, x, simulation.kinematics(),
+        nearest_target_radius(simulation.mechanism().model(), x, simulation.kinematics(),
                               couplings->target(c, x.t).k, spec.spring, prepared.run.step);
     if (radius.ratio() > 1)
       return PassedRadius{
           run.step(), x.t, spec.name,
-          simulation.mechanism().model.joint_name[static_cast<std::size_t>(radius.body)], radius};
+          simulation.mechanism().model().joint_name[static_cast<std::size_t>(radius.body)], radius};
   }
   return std::nullopt;
 }

@@ -156,7 +156,7 @@ double default_energy_bound(const Model<double>& model, const State<double>& x, 
 
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,
                        const State<double>& last, double t, long step) {
-  const Model<double>& model = simulation.mechanism().model;
+  const Model<double>& model = simulation.mechanism().model();
   PostMortem found;
   found.kinetic_energy = kinetic_energy(model, last);
   found.time = t;
@@ -201,7 +201,7 @@ std::size_t floating_base(const Model<double>& model) {
 }  // namespace
 
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
-  const Model<double>& model = simulation.mechanism().model;
+  const Model<double>& model = simulation.mechanism().model();
   const bool has_constraints = simulation.has_constrained_steps();
   if (!facts_of(plan.integrator).implicit_force || plan.locates_events) return "";
   if (has_constraints && dot(model.gravity, model.gravity) > 0) return "";

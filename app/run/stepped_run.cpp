@@ -187,10 +187,9 @@ double SteppedRun::time_after(double t, double h) const {
 }
 
 bool SteppedRun::one_step(double t, double h_max) {
-  before_.reset();
   const bool has_sample_within =
       next_ < plan_.times.size() && plan_.times[next_] < t + h_max * (1 - kSameTime);
-  if (has_sample_within || !energy_balance_->inner_nodes().empty()) before_.emplace(sim_);
+  if (has_sample_within || !energy_balance_->inner_nodes().empty()) before_ = sim_;
   const StepReport report = sim_.step(h_max, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
@@ -266,7 +265,7 @@ void SteppedRun::sample_up_to(double t_end, double t, const Simulation& from) {
 
 State<double> SteppedRun::step_aside(const Simulation& from, double h, double t) {
   StepReport report;
-  State<double> x = side_step(from, h, &report);
+  State<double> x = side_step(from, h, &report, &copy_);
   if (report.interrupted) stop_for_interrupt(t);
   return x;
 }

@@ -75,6 +75,7 @@ class SteppedRun {
   std::optional<EnergyAlarm> alarm_;
   std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
+  std::optional<Simulation> copy_;    // of side_step()
   std::vector<State<double>> inner_;
   std::vector<EnergyRow> carried_;  // added to the rows of these names; their sum is zero
   std::size_t next_ = 0;            // sample

@@ -15,10 +15,10 @@ constexpr int kMaxAttempts = 10'000'000;  // per step
 }  // namespace
 
 Dopri5::Dopri5(const IntegrationState& m)
-    : rk_(m.model.nv),
+    : rk_(m.model().nv),
       margin_(m.dynamics.groups().size()),
-      size_(m.model.nv),
-      size_new_(m.model.nv) {}
+      size_(m.model().nv),
+      size_new_(m.model().nv) {}
 
 void Dopri5::step(IntegrationState& m, double h, bool one, StepReport& report) {
   const double t_end = m.x.t + h;
@@ -89,8 +89,8 @@ void Dopri5::accept(IntegrationState& m, double t) {
 
 double Dopri5::error(const IntegrationState& m, double h) {
   const int stages = Tableau::kMaxStages;
-  coordinate_sizes(m.model, m.x.q, size_);
-  coordinate_sizes(m.model, m.stage.q, size_new_);
+  coordinate_sizes(m.model(), m.x.q, size_);
+  coordinate_sizes(m.model(), m.stage.q, size_new_);
   double err = 0;
   for (std::size_t i = 0; i < size_.size(); ++i) {
     const double error_q = h * rk_.rate_sum(kErrorWeights, stages, i);
@@ -124,7 +124,7 @@ void Dopri5::choose_next(double h, bool full) {
 // difference estimate of the second derivative.
 double Dopri5::first_substep(IntegrationState& m, double h_max) {
   const Tableau& euler = tableau_of(Integrator::euler);
-  coordinate_sizes(m.model, m.x.q, size_);
+  coordinate_sizes(m.model(), m.x.q, size_);
   double d0 = 0, d1 = 0, d2 = 0;
   for (std::size_t i = 0; i < size_.size(); ++i) {
     const double v = m.x.qd[i], a = rk_.qdd_sum(euler.b, 1, i);

@@ -63,10 +63,10 @@ void RungeKutta::stage(IntegrationState& m, const Tableau& tableau, int s, doubl
     theta_[i] = h * rate_sum(tableau.a[row], s, i);
     m.stage.qd[i] = m.x.qd[i] + h * qdd_sum(tableau.a[row], s, i);
   }
-  integrate_coordinates(m.model, m.x.q, theta_, m.stage.q);
+  integrate_coordinates(m.model(), m.x.q, theta_, m.stage.q);
   m.stage.t = m.x.t + tableau.c[row] * h;
   m.accelerate_stage();
-  tangent_rate(m.model, theta_, m.stage.qd, rate_[row]);
+  tangent_rate(m.model(), theta_, m.stage.qd, rate_[row]);
   qdd_[row] = m.w.qdd;
 }
 
@@ -78,16 +78,16 @@ void RungeKutta::step(IntegrationState& m, const Tableau& tableau, double h) {
     theta_[i] = h * rate_sum(tableau.b, tableau.stages, i);
     m.x.qd[i] += h * qdd_sum(tableau.b, tableau.stages, i);
   }
-  integrate_coordinates(m.model, m.x.q, theta_, m.x.q);
+  integrate_coordinates(m.model(), m.x.q, theta_, m.x.q);
 }
 
 void kick(IntegrationState& m, double h) {
-  for (std::size_t i = 0; i < m.model.nv; ++i) m.x.qd[i] += h * m.w.qdd[i];
+  for (std::size_t i = 0; i < m.model().nv; ++i) m.x.qd[i] += h * m.w.qdd[i];
 }
 
 void drift(IntegrationState& m, std::vector<double>& delta, double h) {
-  for (std::size_t i = 0; i < m.model.nv; ++i) delta[i] = h * m.x.qd[i];
-  integrate_coordinates(m.model, m.x.q, delta, m.x.q);
+  for (std::size_t i = 0; i < m.model().nv; ++i) delta[i] = h * m.x.qd[i];
+  integrate_coordinates(m.model(), m.x.q, delta, m.x.q);
 }
 
 void step_verlet(IntegrationState& m, std::vector<double>& delta, double h) {
@@ -96,7 +96,7 @@ void step_verlet(IntegrationState& m, std::vector<double>& delta, double h) {
   drift(m, delta, h);
   m.stage.q = m.x.q;
   m.stage.t = m.x.t + h;
-  for (std::size_t i = 0; i < m.model.nv; ++i)
+  for (std::size_t i = 0; i < m.model().nv; ++i)
     m.stage.qd[i] = m.x.qd[i] + h / 2 * m.w.qdd[i];  // predicted velocity v + h a
   m.accelerate_stage();
   kick(m, h / 2);

@@ -74,7 +74,7 @@ void ImplicitStep::prepare(IntegrationState& m, Integrator integrator, double h)
 double ImplicitStep::residual(IntegrationState& m, const std::vector<double>& u,
                               std::vector<double>& r) {
   for (std::size_t i = 0; i < u.size(); ++i) delta_[i] = weight_u_ * u[i] + weight_v_ * m.x.qd[i];
-  integrate_coordinates(m.model, m.x.q, delta_, m.stage.q);
+  integrate_coordinates(m.model(), m.x.q, delta_, m.stage.q);
   m.stage.qd = u;
   m.stage.t = t_u_;
   m.accelerate_stage();
@@ -142,7 +142,7 @@ void ImplicitStep::finish(IntegrationState& m, Integrator integrator, double h) 
     delta_[i] = midpoint ? h * u_[i] : weight_u_ * u_[i] + weight_v_ * m.x.qd[i];
     m.x.qd[i] = midpoint ? 2 * u_[i] - m.x.qd[i] : u_[i];
   }
-  integrate_coordinates(m.model, m.x.q, delta_, m.x.q);
+  integrate_coordinates(m.model(), m.x.q, delta_, m.x.q);
 }
 
 }  // namespace twinarm

@@ -39,23 +39,23 @@ void visit_state(StateArchive& archive, const Model<double>& model, State<double
   set_q_with_prescribed(model, q, x);
 }
 
-IntegrationState::IntegrationState(const Model<double>& model_of, State<double> start)
-    : model(model_of),
-      x(std::move(start)),
+IntegrationState::IntegrationState(const Model<double>& model, State<double> start)
+    : x(std::move(start)),
       k(model),
       stage(x),
       k_stage(model),
       w(model),
       forces(model),
       dynamics(model),
-      projection(model) {
+      projection(model),
+      model_(&model) {
   project_and_update();
 }
 
 void IntegrationState::update_kinematics() {
-  apply_mimics(model, x);
+  apply_mimics(*model_, x);
   set_prescribed_joints(x);
-  forward_kinematics(model, x, k);
+  forward_kinematics(*model_, x, k);
 }
 
 double IntegrationState::project_loops(State<double>& at, Kinematics& k_at) {
@@ -67,17 +67,17 @@ double IntegrationState::project_loops(State<double>& at, Kinematics& k_at) {
 }
 
 void IntegrationState::start(State<double> from) {
-  apply_mimics(model, from);
+  apply_mimics(*model_, from);
   set_prescribed_joints(from);
-  if (has_loops()) check_loops(model, dynamics.bilateral().loops().loops(), from);
+  if (has_loops()) check_loops(*model_, dynamics.bilateral().loops().loops(), from);
   x = std::move(from);
-  forward_kinematics(model, x, k);
+  forward_kinematics(*model_, x, k);
   prepare_projection();
   project_and_update();
 }
 
 void IntegrationState::set_loops(LoopClosures loops) {
-  if (account) account.emplace(model, loops.loops().size(), loops.rows());
+  if (account) account.emplace(*model_, loops.loops().size(), loops.rows());
   projection.set_loops(loops);
   dynamics.bilateral().set_loops(std::move(loops));
   prepare_projection();
@@ -88,7 +88,7 @@ void IntegrationState::prepare_projection() {
   if (!has_loops()) return;
   dynamics.bilateral().loops().evaluate(x, k);
   forces.clear();
-  aba(model, x, forces, w);
+  aba(*model_, x, forces, w);
   dynamics.bilateral().prepare(w);
   start_projection();
 }
@@ -96,7 +96,7 @@ void IntegrationState::prepare_projection() {
 void IntegrationState::accelerate_stage() {
   stage.prescribed = x.prescribed;  // of joints without a motion function
   set_prescribed_joints(stage);
-  forward_kinematics(model, stage, k_stage);
+  forward_kinematics(*model_, stage, k_stage);
   project_loops(stage, k_stage);
   accelerate(stage, k_stage, FrictionRule::frozen_modes, 0);
 }

@@ -41,7 +41,7 @@ void visit_state(StateArchive& archive, const Model<double>& model, State<double
 struct IntegrationState {
   IntegrationState(const Model<double>& model, State<double> start);
 
-  const Model<double>& model;
+  const Model<double>& model() const { return *model_; }
   State<double> x;
   Kinematics k;         // of x
   State<double> stage;  // stage of the integrator
@@ -87,7 +87,7 @@ struct IntegrationState {
   // Restores a state of project_and_update() bit-exactly, without projection.
   void resume(State<double> from) {
     x = std::move(from);
-    forward_kinematics(model, x, k);
+    forward_kinematics(*model_, x, k);
   }
   void set_loops(LoopClosures loops);  // closed at x up to kMaxInitialError
   // Loops are projected with M and J of the last acceleration at x (loop_projection.h).
@@ -104,9 +104,11 @@ struct IntegrationState {
   void accelerate(const State<double>& at, const Kinematics& k_at, FrictionRule rule, double h);
   void set_prescribed_joints(State<double>& at) const {
     for (const PrescribedJointMotion& joint : prescribed_joints)
-      store_motion(model, joint.body, joint.motion(at.t), at);
+      store_motion(*model_, joint.body, joint.motion(at.t), at);
   }
   double project_loops(State<double>& at, Kinematics& k_at);
+
+  const Model<double>* model_;
 };
 
 }  // namespace twinarm

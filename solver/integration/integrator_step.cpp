@@ -10,7 +10,7 @@
 namespace twinarm {
 
 IntegratorStep::IntegratorStep(const IntegrationState& m)
-    : delta_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
+    : delta_(m.model().nv), rk_(m.model().nv), dopri5_(m), events_(m) {}
 
 void IntegratorStep::set_integrator(Integrator integrator, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
@@ -36,7 +36,7 @@ void IntegratorStep::step(IntegrationState& m, double h, bool one_substep, StepR
     m.accelerate_over(h);
     kick(m, h);
     m.dynamics.zero_sticking_velocities(m.x);
-    apply_mimics(m.model, m.x);
+    apply_mimics(m.model(), m.x);
     if (integrator_ == Integrator::semi_implicit) drift(m, delta_, h);
   } else if (m.dynamics.has_coulomb()) {
     report.events = events_.advance(m, h, [&](double s) { smooth_step(m, s, report); });
@@ -62,18 +62,18 @@ void report_non_finite(const IntegrationState& m, StepReport& report) {
   if (sum == 0) return;
 
   report.finite = false;
-  const NonFiniteField bad = first_bad_quantity(m.model, m.forces, m.w);
+  const NonFiniteField bad = first_bad_quantity(m.model(), m.forces, m.w);
   if (bad.body != 0) {
     report.nonfinite_field = bad.name;
     report.nonfinite_body = static_cast<int>(bad.body);
     return;
   }
-  const std::vector<double> q = q_with_prescribed(m.model, m.x);
+  const std::vector<double> q = q_with_prescribed(m.model(), m.x);
   const auto bad_q = std::ranges::find_if_not(q, [](double c) { return std::isfinite(c); });
   if (bad_q == q.end()) return;
   report.nonfinite_field = "q";
-  for (std::size_t i = 1; i < m.model.parent.size(); ++i)
-    if (m.model.iq[i] + m.model.ip[i] <= static_cast<std::size_t>(bad_q - q.begin()))
+  for (std::size_t i = 1; i < m.model().parent.size(); ++i)
+    if (m.model().iq[i] + m.model().ip[i] <= static_cast<std::size_t>(bad_q - q.begin()))
       report.nonfinite_body = static_cast<int>(i);
 }
 

@@ -38,7 +38,7 @@ void ConstraintSystem::accelerate(IntegrationState& m, double h) {
   m.forces.clear();
   for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
   friction.add_dampers(m.x, h, m.forces);
-  aba(m.model, m.x, m.forces, m.w);
+  aba(m.model(), m.x, m.forces, m.w);
   if (!m.has_loops()) return;
   m.dynamics.bilateral().loops().evaluate(m.x, m.k);
   m.dynamics.bilateral().prepare(m.w);

@@ -70,7 +70,7 @@ void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h
 
 void EventStep::restore_segment_start() {
   m_->x = start_;
-  forward_kinematics(m_->model, m_->x, m_->k);
+  forward_kinematics(m_->model(), m_->x, m_->k);
   for (EventSource* source : sources_) source->restore_active_set();
 }
 
@@ -146,7 +146,7 @@ double EventStep::smooth_segment(double max_length, StepReport& report) {
 double EventStep::locate_contact(double s, double gap_start, double gap_end) {
   const double length = locate_zero(s, gap_start, gap_end, [&](double trial) {
     m_->x = start_;
-    forward_kinematics(m_->model, m_->x, m_->k);
+    forward_kinematics(m_->model(), m_->x, m_->k);
     if (integrate_segment(trial) == Segment::stopped) return 0.0;  // ends the search
     constrained_->system().begin_step(*m_, trial);
     return next_event().gap;
@@ -172,9 +172,9 @@ EventStep::Segment EventStep::integrate_segment(double s) {
       return stops() ? Segment::stopped : Segment::mode_changed;
     table_.add_row(values_);
   }
-  const std::size_t nv = m_->model.nv;
+  const std::size_t nv = m_->model().nv;
   size_.resize(nv);
-  coordinate_sizes(m_->model, start_.q, size_);
+  coordinate_sizes(m_->model(), start_.q, size_);
   error_ = 0;
   const std::vector<double>&best = table_.best(), &next = table_.next_best();
   for (std::size_t i = 0; i < nv; ++i) {
@@ -190,7 +190,7 @@ EventStep::Segment EventStep::integrate_segment(double s) {
 // n first-order steps; false if a contact mode changes and this is rejected, or if stopped.
 bool EventStep::run_column(double s, int n, ModeChange mode_change) {
   const bool rejects = mode_change == ModeChange::rejected;
-  const std::size_t nv = m_->model.nv;
+  const std::size_t nv = m_->model().nv;
   const double step = s / n;
   m_->x = start_;
   if (m_->account) m_->account->start_segment();
@@ -199,9 +199,9 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
   rate_.resize(nv);
   for (int i = 1; i <= n; ++i) {
     if (rejects && stops()) return false;
-    tangent_rate(m_->model, theta_, m_->x.qd, rate_);
+    tangent_rate(m_->model(), theta_, m_->x.qd, rate_);
     for (std::size_t dof = 0; dof < nv; ++dof) theta_[dof] += step * rate_[dof];
-    integrate_coordinates(m_->model, start_.q, theta_, m_->x.q);
+    integrate_coordinates(m_->model(), start_.q, theta_, m_->x.q);
     m_->x.t = start_.t + i * step;
     m_->update_kinematics();
     constrained_->system().begin_step(*m_, 0);
@@ -225,9 +225,9 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
 }
 
 void EventStep::set_state(const std::vector<double>& row, double s) {
-  const std::size_t nv = m_->model.nv;
+  const std::size_t nv = m_->model().nv;
   theta_.assign(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(nv));
-  integrate_coordinates(m_->model, start_.q, theta_, m_->x.q);
+  integrate_coordinates(m_->model(), start_.q, theta_, m_->x.q);
   std::copy_n(row.begin() + static_cast<std::ptrdiff_t>(nv), nv, m_->x.qd.begin());
   m_->x.t = start_.t + s;
   m_->update_kinematics();

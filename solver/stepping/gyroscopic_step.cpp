@@ -51,18 +51,18 @@ void GyroscopicCouples::apply(IntegrationState& m, double h) {
   bool any = false;
   for (std::size_t i = 1; i < couple_.size(); ++i) {
     couple_[i] = {};
-    if (!is_free_rigid_body(m.model, m.forces, i)) continue;
-    const Eigen::Map<const Vector3> w(m.x.qd.data() + m.model.iv[i]);
+    if (!is_free_rigid_body(m.model(), m.forces, i)) continue;
+    const Eigen::Map<const Vector3> w(m.x.qd.data() + m.model().iv[i]);
     if (!(h * w.norm() > kMinRotation)) continue;
-    const Matrix3 I = about_centre(m.model.I[i]);
+    const Matrix3 I = about_centre(m.model().I[i]);
     const Vector3 moment = w.cross(I * w);
-    const Vector3 n = I * Eigen::Map<const Vector3>(m.w.qdd.data() + m.model.iv[i]) + moment;
+    const Vector3 n = I * Eigen::Map<const Vector3>(m.w.qdd.data() + m.model().iv[i]) + moment;
     const Vector3 mean = w + 0.5 * velocity_change(I, w, n, h);
     couple_[i] = from_eigen(moment - mean.cross(I * mean));
     m.forces.f_ext[i].n += couple_[i];
     any = true;
   }
-  if (any) aba(m.model, m.x, m.forces, m.w);
+  if (any) aba(m.model(), m.x, m.forces, m.w);
 }
 
 }  // namespace twinarm

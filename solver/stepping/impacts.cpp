@@ -86,7 +86,7 @@ int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Ph
     system.distribute_impulses(frame);  // with the kinematics before the impact
     system.bilateral.add_work(problem, system.velocity.data(), m, phase);
     system.trees.scatter(problem, m.x.qd);
-    forward_kinematics(m.model, m.x, m.k);
+    forward_kinematics(m.model(), m.x, m.k);
     for (ConstraintSource* source : system.sources) source->extend_detection(m.k, h);
   }
   return passes;

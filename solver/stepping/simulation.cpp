@@ -93,15 +93,15 @@ void Simulation::set_integrator(Integrator integrator, double tolerance) {
 }
 
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
-  check_loops(m_.model, loops, m_.x);
-  m_.set_loops(LoopClosures(m_.model, std::move(loops)));
+  check_loops(m_.model(), loops, m_.x);
+  m_.set_loops(LoopClosures(m_.model(), std::move(loops)));
   constrained_.system().bilateral.clear_loop_guesses();
   integrator_step_.reset_step_size();
 }
 
 void Simulation::prescribe(int body, MotionFunction motion) {
   const auto i = static_cast<std::size_t>(body);
-  if (body <= 0 || body >= m_.model.body_count() || m_.model.joint[i] != JointType::prescribed)
+  if (body <= 0 || body >= m_.model().body_count() || m_.model().joint[i] != JointType::prescribed)
     throw std::invalid_argument("body " + std::to_string(body) +
                                 " is not the child of a prescribed joint");
   const auto before = m_.prescribed_joints;
@@ -117,10 +117,12 @@ void Simulation::prescribe(int body, MotionFunction motion) {
 }
 
 void Simulation::set_state(State<double> x) {
-  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv || x.prescribed.size() != m_.model.np)
+  if (x.q.size() != m_.model().nq || x.qd.size() != m_.model().nv ||
+      x.prescribed.size() != m_.model().np)
     throw std::invalid_argument("state size mismatch: q, qd have " + std::to_string(x.q.size()) +
                                 ", " + std::to_string(x.qd.size()) + " entries, the model " +
-                                std::to_string(m_.model.nq) + ", " + std::to_string(m_.model.nv));
+                                std::to_string(m_.model().nq) + ", " +
+                                std::to_string(m_.model().nv));
   m_.start(std::move(x));
   integrator_step_.reset_step_size();
 }
@@ -128,7 +130,7 @@ void Simulation::set_state(State<double> x) {
 void Simulation::serialize(StateArchive& archive) {
   const std::vector<Checkpointable*> all = checkpointable_sources(*this);
   State<double> x = m_.x;
-  visit_state(archive, m_.model, x);
+  visit_state(archive, m_.model(), x);
   if (archive.reads()) m_.resume(std::move(x));
   m_.dynamics.serialize(archive);
   integrator_step_.serialize(archive);
@@ -160,24 +162,26 @@ StepReport Simulation::step(double h, bool one_substep) {
   return report;
 }
 
-State<double> side_step(const Simulation& from, double h, StepReport* report) {
+State<double> side_step(const Simulation& from, double h, StepReport* report,
+                        std::optional<Simulation>* copy) {
   check_step_size(h);
   const SavedSources saved(checkpointable_sources(from));
-  Simulation aside(from);
-  const StepReport taken = aside.step(h);
+  std::optional<Simulation> of_this_call;
+  std::optional<Simulation>& aside = copy ? *copy : of_this_call;
+  aside = from;
+  const StepReport taken = aside->step(h);
   if (report) *report = taken;
-  return aside.state();
+  return aside->state();
 }
 
-IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x) {
+void evaluate_at(const Simulation& simulation, const State<double>& x,
+                 std::optional<IntegrationState>& copy) {
   constexpr double kInstant = 1e-6;  // [s]; > 0: right-sided limit at velocity discontinuities
   const SavedSources saved(checkpointable_sources(simulation));
-  IntegrationState aside(simulation.mechanism());
-  aside.x = x;
-  forward_kinematics(aside.model, aside.x, aside.k);
-  aside.begin_step(kInstant);
-  aside.accelerate();
-  return aside;
+  if (!copy) copy.emplace(simulation.mechanism());
+  copy->resume(x);
+  copy->begin_step(kInstant);
+  copy->accelerate();
 }
 
 }  // namespace twinarm

@@ -83,10 +83,12 @@ class Simulation {
 
 // Result of a step h without changing the simulation; for samples between steps. Throws as step(),
 // and std::invalid_argument for a source that is not Checkpointable. May allocate. Uses and
-// restores the sources: not thread-safe.
-State<double> side_step(const Simulation& from, double h, StepReport* report = nullptr);
-// A copy at state x after one evaluation of all forces, without contacts and limits. Sources and
-// exceptions as in side_step(). May allocate.
-IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x);
+// restores the sources: not thread-safe. copy: memory for further calls, at first empty.
+State<double> side_step(const Simulation& from, double h, StepReport* report = nullptr,
+                        std::optional<Simulation>* copy = nullptr);
+// `copy` of the mechanism, at first empty, at state x after one evaluation of all forces, without
+// contacts and limits. Sources and exceptions as in side_step(). May allocate.
+void evaluate_at(const Simulation& simulation, const State<double>& x,
+                 std::optional<IntegrationState>& copy);
 
 }  // namespace twinarm

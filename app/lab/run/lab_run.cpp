@@ -119,7 +119,7 @@ bool LabRun::step(const LabInput* replayed) {
   const bool goes_on = run_->advance();
   override_->after_step(simulation, h, goes_on);
   stopped_ = !goes_on || run_->result().alarm ||
-             kinetic_energy(simulation.mechanism().model, simulation.state()) > max_energy_;
+             kinetic_energy(simulation.mechanism().model(), simulation.state()) > max_energy_;
   return !stopped_;
 }
 

@@ -74,7 +74,7 @@ void watch_target_radius(TrackingSystem& system, double t, const RunSpec& spec,
   const Simulation& dvr = system.simulation();
   for (const Spring& spring : system.coupling(0).springs()) {
     const TargetRadius radius =
-        nearest_target_radius(dvr.mechanism().model, dvr.state(), dvr.kinematics(),
+        nearest_target_radius(dvr.mechanism().model(), dvr.state(), dvr.kinematics(),
                               system.kvr().at(t).k, spring, spec.step());
     if (radius.ratio() > 1 && result.exceeded_at < 0) result.exceeded_at = t;
     const double nearest = result.target_radius_limit > 0

@@ -49,9 +49,9 @@ ContactScene thrown_together(unsigned seed, bool floating) {
 }
 
 Force<double> momentum_of(const Simulation& simulation) {
-  Workspace<double> w(simulation.mechanism().model);
-  kinematics(simulation.mechanism().model, simulation.state(), w);
-  return momentum(simulation.mechanism().model, w);
+  Workspace<double> w(simulation.mechanism().model());
+  kinematics(simulation.mechanism().model(), simulation.state(), w);
+  return momentum(simulation.mechanism().model(), w);
 }
 
 }  // namespace
@@ -100,9 +100,9 @@ TEST_CASE("momentum is conserved in collisions of free bodies") {
     ContactScene scene = thrown_together(seed, true);
     const Force<double> before = momentum_of(scene.simulation());
     double size = 0;  // scale: exchanged momenta
-    for (std::size_t i = 1; i < scene.simulation().mechanism().model.parent.size(); ++i)
-      size +=
-          scene.simulation().mechanism().model.I[i].m * scene.velocity(static_cast<int>(i)).norm();
+    for (std::size_t i = 1; i < scene.simulation().mechanism().model().parent.size(); ++i)
+      size += scene.simulation().mechanism().model().I[i].m *
+              scene.velocity(static_cast<int>(i)).norm();
     scene.run(1e-3, 400);
     const Force<double> after = momentum_of(scene.simulation());
     worst = std::max(worst, to_eigen(after.f - before.f).norm() / size);

@@ -76,7 +76,7 @@ TEST_CASE("a fast spinning capsule nutates with the mean of its velocities") {
   const Vector3 w(20, 0, 170);
   const int capsule = scene.body(Capsule{0.03, 0.12}, 1, rough_surface(0.5, 0), {{}, {}, w});
   const Simulation& simulation = scene.begin();
-  const Inertia<double> body = simulation.mechanism().model.I[static_cast<std::size_t>(capsule)];
+  const Inertia<double> body = simulation.mechanism().model().I[static_cast<std::size_t>(capsule)];
   const double energy = scene.energy();
   scene.run(h, 2000);
   CHECK(scene.energy() == doctest::Approx(energy).epsilon(1e-12));
@@ -95,7 +95,7 @@ TEST_CASE("a tumbling box keeps its energy exactly and its momentum with order 2
     const int box =
         scene.body(Box{{0.1, 0.2, 0.3}}, 1, rough_surface(0.5, 0), {{}, {}, {1, 30, -2}});
     const Simulation& simulation = scene.begin();
-    const Inertia<double> body = simulation.mechanism().model.I[static_cast<std::size_t>(box)];
+    const Inertia<double> body = simulation.mechanism().model().I[static_cast<std::size_t>(box)];
     const auto momentum = [&]() -> Vector3 {
       const std::vector<double>& qd = simulation.state().qd;
       const Vec3<double> L = body.I * Vec3<double>{qd[0], qd[1], qd[2]};

@@ -220,10 +220,15 @@ TEST_CASE("evaluate_at() evaluates forces at another state in a copy") {
   Forces<double> pushed(model);
   pushed.tau[0] = 1;
   aba(model, elsewhere, pushed, w);
-  const IntegrationState there = evaluate_at(simulation, elsewhere);
-  CHECK(there.x.q == elsewhere.q);
-  CHECK(there.x.qd == elsewhere.qd);
-  CHECK(there.w.qdd == w.qdd);
+  std::optional<IntegrationState> there;
+  for (int call = 0; call < 2; ++call) {
+    evaluate_at(simulation, elsewhere, there);
+    CHECK(there->x.q == elsewhere.q);
+    CHECK(there->x.qd == elsewhere.qd);
+    CHECK(there->w.qdd == w.qdd);
+    evaluate_at(simulation, start, there);
+    CHECK(there->w.qdd != w.qdd);
+  }
   CHECK(source.begun == 0);
   CHECK(simulation.state().q == start.q);
   CHECK(simulation.state().qd == start.qd);

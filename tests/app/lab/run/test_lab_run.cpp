@@ -246,7 +246,7 @@ TEST_CASE("lab run: a body on the mouse spring is a damped oscillator; both bala
   CHECK(closed_form > 1e-5);
   const SteppedRun& view = s.run->view();
   const double energy =
-      kinetic_energy(view.simulation().mechanism().model, view.simulation().state());
+      kinetic_energy(view.simulation().mechanism().model(), view.simulation().state());
   const auto rows = s.run->view().energy_balance();
   CHECK(work_of(rows, "mouse") == doctest::Approx(energy).epsilon(1e-9));
   CHECK(std::abs(work_of(rows, "numerical")) < 1e-9 * energy);

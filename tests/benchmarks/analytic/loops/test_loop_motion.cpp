@@ -31,8 +31,8 @@ Simulation simulation_of(const LoopCase& c, Integrator integrator) {
   return simulation;
 }
 double energy_of(const Simulation& s) {
-  return kinetic_energy(s.mechanism().model, s.state()) +
-         potential_energy(s.mechanism().model, s.state());
+  return kinetic_energy(s.mechanism().model(), s.state()) +
+         potential_energy(s.mechanism().model(), s.state());
 }
 double error_of(const LoopCase& c, const Simulation& s, const LoopCase::Sample& sample) {
   const std::vector<double> values = c.read(s.state(), s.kinematics());

@@ -24,8 +24,8 @@ Simulation closed_mechanism(const LoopCase& c, Integrator integrator,
 }
 
 double energy_now(const Simulation& s) {
-  return kinetic_energy(s.mechanism().model, s.state()) +
-         potential_energy(s.mechanism().model, s.state());
+  return kinetic_energy(s.mechanism().model(), s.state()) +
+         potential_energy(s.mechanism().model(), s.state());
 }
 
 // Difference between accounts and the mechanism's energy gain, and the accounts, over some steps.
