@@ -96,7 +96,7 @@ class Registered(unittest.TestCase):
     def test_tests_of_the_clock_run_alone(self):
         clock = {name for name, of in self.tests.items() if "wallclock" in of.get("LABELS", [])}
         self.assertEqual(clock, {name for name, of in self.tests.items() if of.get("RUN_SERIAL")})
-        self.assertTrue({"lab_page", "hand_command"} <= clock)
+        self.assertTrue({"hand_clock", "hand_command"} <= clock)
 
 
 class Waiting(unittest.TestCase):
