@@ -39,6 +39,12 @@ Vector3 area_vector(const ConvexHull& hull, const std::vector<int>& loop) {
   return sum;
 }
 
+// Grows with the angle of (x, y) from -2 to 2.
+double pseudo_angle(double x, double y) {
+  const double sum = std::abs(x) + std::abs(y), sine = sum > 0 ? y / sum : 0;
+  return x >= 0 ? sine : std::copysign(2, y) - sine;
+}
+
 // Sorts the vertices of a facet counter-clockwise about the normal.
 void order_loop(const ConvexHull& hull, const Vector3& normal, std::vector<int>& loop) {
   Vector3 mean = Vector3::Zero();
@@ -47,7 +53,7 @@ void order_loop(const ConvexHull& hull, const Vector3& normal, std::vector<int>&
   std::vector<std::pair<double, int>> by_angle;
   for (int v : loop) {
     const Vector3 r = hull.vertices[v] - mean;
-    by_angle.emplace_back(std::atan2(r.dot(y), r.dot(x)), v);
+    by_angle.emplace_back(pseudo_angle(r.dot(x), r.dot(y)), v);
   }
   std::sort(by_angle.begin(), by_angle.end());
   for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = by_angle[i].second;
