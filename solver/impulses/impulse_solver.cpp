@@ -15,10 +15,11 @@ constexpr double kDivergence = 10;                    // residual relative to th
 constexpr int kMaxRestarts = 10, kRestartFactor = 4;  // restarts from the best; times max_newton
 constexpr std::size_t kSmallIsland = 8;               // constraints
 constexpr int kMaxPaths = 8;
+constexpr int kMinDescents = 300, kMaxDescents = 5000;
 
 }  // namespace
 
-ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
+ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem, bool full) {
   ImpulseReport report;
   problem_ = &problem;
   report.converged = factorise_trees();
@@ -59,7 +60,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
       open = !(residual <= good_guess);  // can increase the residual of shared contacts
     }
     if (open) {
-      residual = solve_island(report);
+      residual = solve_island(report, full);
       // Event-driven steps, with good_guess < tolerance, require the tolerance.
       const double required = good_guess < tolerance ? tolerance : accepted;
       if (island_->constraints.size() <= kSmallIsland || !(residual <= required))
@@ -141,63 +142,71 @@ double ImpulseSolver::projected_gradient_step() {
   return apply_impulses();
 }
 
+void ImpulseSolver::keep_best(double residual) {
+  if (!(residual < best_)) return;  // also if it is not a number
+  best_ = residual;
+  for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
+}
+
+void ImpulseSolver::iterate(int max_steps, bool damped, double rho, ImpulseReport& report) {
+  rho_ratio_ = rho;
+  run_augmented_lagrangian(max_steps, damped, report);
+  keep_best(apply_impulses());
+}
+
 // The stages of impulse_solver.h until the residual is accepted. Sets the best p and returns its
 // residual.
-double ImpulseSolver::solve_island(ImpulseReport& report) {
+double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
   ++report.solved;
   order();
   set_envelope();
-  double best = std::numeric_limits<double>::infinity();
+  best_ = std::numeric_limits<double>::infinity();
   best_p_.resize(problem_->constraints().size()), iterate_p_.resize(best_p_.size());
   guess_p_.resize(best_p_.size());
   const bool small = island_->constraints.size() <= kSmallIsland;
-  const auto keep_best = [&](double residual) {
-    if (!(residual < best)) return;  // also if it is not a number
-    best = residual;
-    for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
-  };
   for (const int i : island_->constraints) best_p_[i] = guess_p_[i] = constraint(i).p;
-  const auto iterate = [&](int max_steps, bool damped, double rho) {
-    rho_ratio_ = rho;
-    run_augmented_lagrangian(max_steps, damped, report);
-    keep_best(apply_impulses());
-  };
   if (small && has_warm_start()) {
     keep_best(warm_start_newton(report));
-    if (best <= accepted) return best;
+    if (best_ <= accepted) return best_;
     apply_impulses(guess_p_);
   }
-  iterate(small ? quick_newton_small : quick_newton, false, kFirstRho);
-  if (best <= accepted) return best;
-  const auto finish = [&](bool damped) {
-    keep_best(apply_impulses());
-    if (best > accepted) iterate(max_newton, damped, kFirstRho);
-  };
+  iterate(small ? quick_newton_small : quick_newton, false, kFirstRho, report);
+  if (best_ <= accepted) return best_;
   report.interior = std::max(report.interior, interior_point_start());
-  finish(false);
+  keep_best(apply_impulses());
+  if (best_ > accepted) iterate(max_newton, false, kFirstRho, report);
+  if (full)
+    try_other_starts(report);
+  else
+    keep_best(apply_impulses(guess_p_)), apply_impulses(best_p_);
+  // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
+  const auto max_descents = static_cast<int>(
+      std::clamp<std::size_t>(30000 / island_->constraints.size(), kMinDescents, kMaxDescents));
+  for (int k = 0; k < (full ? max_descents : kMinDescents) && best_ > accepted; ++k)
+    keep_best(projected_gradient_step());
+  return apply_impulses(best_p_);
+}
+
+void ImpulseSolver::try_other_starts(ImpulseReport& report) {
   // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
   // leads to jamming even if a small gap excludes it: also iterate from the guess.
   for (const double rho : {kFirstRho, kLargeRho}) {
-    if (best <= accepted) break;
+    if (best_ <= accepted) break;
     apply_impulses(guess_p_);
-    iterate(max_newton, false, rho);
+    iterate(max_newton, false, rho, report);
   }
-  for (int start = 0; start < kMaxPaths && best > accepted; ++start) {
+  for (int start = 0; start < kMaxPaths && best_ > accepted; ++start) {
     report.path = std::max(report.path, follow_path(start));
-    finish(start % 2 == 1);
+    keep_best(apply_impulses());
+    if (best_ > accepted) iterate(max_newton, start % 2 == 1, kFirstRho, report);
   }
   // Restarts from the best p, damped and undamped in turn, while the residual decreases.
-  for (int k = 0; k < kMaxRestarts && best > accepted; ++k) {
-    const double before = best;
+  for (int k = 0; k < kMaxRestarts && best_ > accepted; ++k) {
+    const double before = best_;
     apply_impulses(best_p_);
-    iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho);
-    if (k % 2 == 1 && best > 0.5 * before) break;
+    iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho, report);
+    if (k % 2 == 1 && best_ > 0.5 * before) break;
   }
-  // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
-  const auto max_descents =
-      static_cast<int>(std::clamp<std::size_t>(30000 / island_->constraints.size(), 300, 5000));
-  for (int k = 0; k < max_descents && best > accepted; ++k) keep_best(projected_gradient_step());
-  return apply_impulses(best_p_);
 }
 
 void ImpulseSolver::update_multipliers() {

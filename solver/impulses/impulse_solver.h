@@ -48,8 +48,9 @@ class ImpulseSolver {
   int quick_newton_small = 28;  // and of a small island
   int max_newton = 400;         // Newton steps of further iterations
 
-  // Writes v of the problem, and p and u of its constraints.
-  ImpulseReport solve(ImpulseProblem& problem);
+  // Writes v of the problem, and p and u of its constraints. full: else, where one interior-point
+  // start does not lead to a solution, the residual is only reduced.
+  ImpulseReport solve(ImpulseProblem& problem, bool full = true);
   // Residual of the last solution in the island of this tree [m/s].
   double residual_of(int tree) const { return residual_[static_cast<std::size_t>(tree)]; }
   void serialize(StateArchive& archive) { archive.visit(solve_again_); }
@@ -75,7 +76,10 @@ class ImpulseSolver {
   double projected_gradient_step();
   double apply_impulses();
   double apply_impulses(const std::vector<Vec>& p);
-  double solve_island(ImpulseReport& report);
+  double solve_island(ImpulseReport& report, bool full);
+  void try_other_starts(ImpulseReport& report);
+  void iterate(int max_steps, bool damped, double rho, ImpulseReport& report);
+  void keep_best(double residual);
   void run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report);
   void update_multipliers();
   void zero_forces();
@@ -146,6 +150,7 @@ class ImpulseSolver {
   std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;
   std::vector<double> rhs_, DJ_;
   double rho_ratio_ = 0;       // rho / rho0 of the current island
+  double best_ = 0;            // residual of best_p_ in this island
   double rounding_error_ = 0;  // for rho = rho0 [m/s]
   EnvelopeLu matrix_;
   // interior_point.cpp, by constraint

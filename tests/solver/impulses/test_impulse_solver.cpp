@@ -193,6 +193,27 @@ TEST_CASE("a bounce in a groove: p = m / (1 - mu), infeasible for mu >= 1") {
   }
 }
 
+TEST_CASE(
+    "limits that exclude each other are given up early, and with nothing worse than the start") {
+  for (const double distance : {1e-3, 1.0, 1e6}) {  // v >= distance and v <= -distance
+    CAPTURE(distance);
+    ImpulseProblem problem;
+    problem.add_tree(1);
+    problem.M(0)[0] = 2;
+    for (const double sign : {1.0, -1.0}) {
+      problem.add(ConstraintType::unilateral, 1, 0, ImpulseConstraint::no_tree);
+      problem.J(problem.constraints().back(), 0)[0] = sign;
+      problem.constraints().back().b[0] = -distance;
+    }
+    ImpulseSolver solver;
+    const ImpulseReport report = solver.solve(problem, false);
+    CHECK(!report.converged);
+    CHECK(report.path == 0);
+    CHECK(report.newton <= solver.max_newton);
+    CHECK(std::abs(problem.v(0)[0]) <= distance);
+  }
+}
+
 TEST_CASE("a sliding point stops or decelerates by mu g, and never separates") {
   for (const double mu : {0.0, 0.3, 1.0, 2.0}) {
     CAPTURE(mu);
