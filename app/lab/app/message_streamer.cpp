@@ -33,16 +33,9 @@ MessageStreamer::MessageStreamer(LabSession& session, Clients& clients,
                                  const std::vector<GalleryScene>& gallery, Post post)
     : session_(session), clients_(clients), gallery_(gallery), post_(std::move(post)) {}
 
-void MessageStreamer::begin() {
-  thread_ = std::thread([this] { work(); });
-}
-
 void MessageStreamer::end() {
   if (!thread_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
+  thread_.request_stop();
   session_.shown().wake();
   thread_.join();
 }
@@ -55,7 +48,7 @@ void MessageStreamer::post(std::function<void(MessageStreamer&)> job) {
   session_.shown().wake();
 }
 
-void MessageStreamer::work() {
+void MessageStreamer::work(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "lab streamer");
   for (;;) {
     const LabNow now = session_.shown().now();
@@ -73,10 +66,7 @@ void MessageStreamer::work() {
     } catch (const std::exception& error) {
       show_failure(error.what());
     }
-    {
-      const std::lock_guard lock(mutex_);
-      if (stop_) return;
-    }
+    if (stop.stop_requested()) return;
     session_.shown().wait(now, std::min(left, kIdle));
   }
 }

@@ -34,7 +34,9 @@ class MessageStreamer {
   MessageStreamer(LabSession& session, Clients& clients, const std::vector<GalleryScene>& gallery,
                   Post post);
   ~MessageStreamer() { end(); }
-  void begin();
+  void begin() {
+    thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+  }
   void end();
 
   // From any thread: to be executed by the streamer's thread.
@@ -49,7 +51,7 @@ class MessageStreamer {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void work();
+  void work(const std::stop_token& stop);
   void show_failure(const std::string& why);
   void do_jobs();
   void greet_new_clients();
@@ -66,9 +68,8 @@ class MessageStreamer {
   Post post_;
 
   std::mutex view_mutex_;  // of what view_ has drawn
-  std::mutex mutex_;       // of the next two
+  std::mutex mutex_;       // of the next one
   std::deque<std::function<void(MessageStreamer&)>> jobs_;
-  bool stop_ = false;
 
   std::unique_ptr<LabView> view_;
   std::vector<ClientId> greeted_;  // clients that have got the scene
@@ -97,7 +98,7 @@ class MessageStreamer {
   Bytes last_frame_;
   Clock::time_point last_inspection_{}, last_limits_{}, last_failure_{};
   std::string failure_;  // shown last
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace twinarm

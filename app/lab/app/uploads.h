@@ -57,14 +57,14 @@ class TaskQueue {
   static constexpr std::size_t kMax = 16, kMaxReads = 12;  // reads leave places for uploads
   // `failed` is called from that thread with what a task throws.
   explicit TaskQueue(std::function<void(const std::string& why)> failed)
-      : failed_(std::move(failed)), thread_([this] { work(); }) {}
-  ~TaskQueue() { end(); }
+      : failed_(std::move(failed)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
   // From any thread. False: too many are waiting.
   bool add(std::function<void()> task, bool is_upload = true) {
     {
       const std::lock_guard lock(mutex_);
-      if (tasks_.size() >= (is_upload ? kMax : kMaxReads) || stop_) return false;
+      if (tasks_.size() >= (is_upload ? kMax : kMaxReads)) return false;
+      if (thread_.get_stop_token().stop_requested()) return false;
       tasks_.push_back(std::move(task));
     }
     wake_.notify_one();
@@ -72,23 +72,19 @@ class TaskQueue {
   }
   // Finishes the present task and drops the waiting ones.
   void end() {
-    {
-      const std::lock_guard lock(mutex_);
-      stop_ = true;
-    }
-    wake_.notify_one();
+    thread_.request_stop();
     if (thread_.joinable()) thread_.join();
   }
 
  private:
-  void work() {
+  void work(const std::stop_token& stop) {
     pthread_setname_np(pthread_self(), "lab tasks");
     for (;;) {
       std::function<void()> task;
       {
         std::unique_lock lock(mutex_);
-        wake_.wait(lock, [this] { return stop_ || !tasks_.empty(); });
-        if (stop_) return;
+        wake_.wait(lock, stop, [this] { return !tasks_.empty(); });
+        if (stop.stop_requested()) return;
         task = std::move(tasks_.front());
         tasks_.pop_front();
       }
@@ -102,10 +98,9 @@ class TaskQueue {
 
   std::function<void(const std::string&)> failed_;
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   std::deque<std::function<void()>> tasks_;
-  bool stop_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace twinarm

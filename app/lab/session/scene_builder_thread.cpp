@@ -106,16 +106,8 @@ BuildResult build(BuildRequest request) {
   return built;
 }
 
-SceneBuilderThread::SceneBuilderThread(Inbox& inbox) : inbox_(inbox), thread_([this] { work(); }) {}
-
-SceneBuilderThread::~SceneBuilderThread() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_all();
-  thread_.join();
-}
+SceneBuilderThread::SceneBuilderThread(Inbox& inbox)
+    : inbox_(inbox), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 std::optional<BuildRequest> SceneBuilderThread::submit(BuildRequest request) {
   std::optional<BuildRequest> replaced;
@@ -154,14 +146,14 @@ void SceneBuilderThread::push_refused(const BuildRequest& request) {
   if (!request.pending.empty()) inbox_.push_refused(request.pending.back().number);
 }
 
-void SceneBuilderThread::work() {
+void SceneBuilderThread::work(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "lab builder");
   for (;;) try {
       BuildRequest request;
       {
         std::unique_lock lock(mutex_);
-        wake_.wait(lock, [this] { return stop_ || next_; });
-        if (stop_) return;
+        wake_.wait(lock, stop, [this] { return next_.has_value(); });
+        if (stop.stop_requested()) return;
         request = std::move(*next_);
         next_.reset();
       }

@@ -68,22 +68,20 @@ class SceneBuilderThread {
  public:
   // Results go to the inbox, and faults as notes, one per line.
   explicit SceneBuilderThread(Inbox& inbox);
-  ~SceneBuilderThread();
   // From any thread. Replaces a waiting request and returns it.
   [[nodiscard]] std::optional<BuildRequest> submit(BuildRequest request);
 
  private:
-  void work();
+  void work(const std::stop_token& stop);
   std::optional<BuildResult> build_one_by_one(const BuildRequest& request);
   void push_refused(const BuildRequest& request);
 
   Inbox& inbox_;
   std::vector<long> refused_;  // numbers of pending changes; used by this thread only
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   std::optional<BuildRequest> next_;
-  bool stop_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 BuildRequest order_to_open(const GalleryScene& scene);
