@@ -19,7 +19,6 @@ void for_calls(Robot& robot, std::size_t count, F f) {
   }
   Robot own(robot.input);
   own.forces = robot.forces;
-  own.f_ext = robot.f_ext;
   {
     const py::gil_scoped_release other_threads;
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,8 +43,8 @@ MatrixWorkspace<double>& matrices_of(Robot& robot) {
 }
 
 // Wrenches from link axes to body axes; zero if none are given.
-void take_wrenches(const char* function, PyObject* given, const Robot& robot,
-                   std::vector<Force<double>>& f_ext) {
+void take_wrenches(const char* function, PyObject* given, Robot& robot) {
+  std::vector<Force<double>>& f_ext = robot.forces.f_ext;
   std::ranges::fill(f_ext, Force<double>{});
   if (!given) return;
   const std::string what = std::string(function) + "(): f_ext";
@@ -63,26 +62,47 @@ void take_wrenches(const char* function, PyObject* given, const Robot& robot,
   }
 }
 
-constexpr std::array kAba{"model", "q", "qd", "tau", "f_ext", "out"};
-PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+// f(robot, place of the result) for every state, with its joint forces or accelerations, the
+// argument `third`, in the vector that third_of(robot) gives.
+template <class ThirdOf, class F>
+PyObject* call_by_state(const char* function, const char* third, PyObject* const* given,
+                        Py_ssize_t count, PyObject* keywords, ThirdOf third_of, F f) {
   return guarded([&] {
-    const Arguments<kAba.size()> a("aba", kAba, 4, given, count, keywords);
-    Robot& robot = robot_of("aba", a.at[0]);
+    const std::array names{"model", "q", "qd", third, "f_ext", "out"};
+    const Arguments<names.size()> a(function, names, 4, given, count, keywords);
+    Robot& robot = robot_of(function, a.at[0]);
     const std::size_t nv = robot.model.nv;
-    const Rows q("aba", "q", a.at[1], robot.nq(), robot), qd("aba", "qd", a.at[2], nv, robot),
-        tau("aba", "tau", a.at[3], nv, robot);
-    const Calls calls("aba", {&q, &qd, &tau});
-    Output out("aba", a.at[5], calls, {nv});
-    take_wrenches("aba", a.at[4], robot, robot.forces.f_ext);
+    const Rows q(function, "q", a.at[1], robot.nq(), robot), qd(function, "qd", a.at[2], nv, robot),
+        thirds(function, third, a.at[3], nv, robot);
+    const Calls calls(function, {&q, &qd, &thirds});
+    Output out(function, a.at[5], calls, {nv});
+    take_wrenches(function, a.at[4], robot);
     for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
-      take_q("aba", q, i, of);
+      take_q(function, q, i, of);
       qd.copy(i, of.x.qd);
-      tau.copy(i, of.forces.tau);
-      aba(of.model, of.x, of.forces, of.of_aba);
-      std::copy_n(of.of_aba.qdd.data(), nv, out.row(i));
-      of.has_run_aba = true;
+      thirds.copy(i, third_of(of));
+      f(of, out.row(i));
     });
     return out.release();
+  });
+}
+PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  const auto tau_of = [](Robot & robot) -> auto& {
+    return robot.forces.tau;
+  };
+  return call_by_state("aba", "tau", given, count, keywords, tau_of, [](Robot& of, double* qdd) {
+    aba(of.model, of.x, of.forces, of.of_aba);
+    std::ranges::copy(of.of_aba.qdd, qdd);
+    of.has_run_aba = true;
+  });
+}
+PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  const auto qdd_of = [](Robot & robot) -> auto& {
+    return robot.qdd;
+  };
+  return call_by_state("rnea", "qdd", given, count, keywords, qdd_of, [](Robot& of, double* tau) {
+    rnea(of.model, of.x, of.qdd, of.forces.f_ext, of.w);
+    std::ranges::copy(of.w.tau, tau);
   });
 }
 
@@ -99,7 +119,7 @@ PyObject* call_aba_derivatives(PyObject*, PyObject* const* given, Py_ssize_t cou
     const Calls calls(kName, {&q, &qd, &tau});
     Output by_q(kName, nullptr, calls, {nv, nv}), by_qd(kName, nullptr, calls, {nv, nv}),
         by_tau(kName, nullptr, calls, {nv, nv});
-    take_wrenches(kName, a.at[4], robot, robot.forces.f_ext);
+    take_wrenches(kName, a.at[4], robot);
     AbaDerivatives<double> all(robot.model);
     for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
       take_q(kName, q, i, of);
@@ -114,28 +134,6 @@ PyObject* call_aba_derivatives(PyObject*, PyObject* const* given, Py_ssize_t cou
       std::ranges::copy(all.Minv, by_tau.row(i));
     });
     return PyTuple_Pack(3, by_q.get(), by_qd.get(), by_tau.get());
-  });
-}
-
-constexpr std::array kRnea{"model", "q", "qd", "qdd", "f_ext", "out"};
-PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
-  return guarded([&] {
-    const Arguments<kRnea.size()> a("rnea", kRnea, 4, given, count, keywords);
-    Robot& robot = robot_of("rnea", a.at[0]);
-    const std::size_t nv = robot.model.nv;
-    const Rows q("rnea", "q", a.at[1], robot.nq(), robot), qd("rnea", "qd", a.at[2], nv, robot),
-        qdd("rnea", "qdd", a.at[3], nv, robot);
-    const Calls calls("rnea", {&q, &qd, &qdd});
-    Output out("rnea", a.at[5], calls, {nv});
-    take_wrenches("rnea", a.at[4], robot, robot.f_ext);
-    for_calls(robot, calls.count, [&](Robot& of, std::size_t i) {
-      take_q("rnea", q, i, of);
-      qd.copy(i, of.x.qd);
-      qdd.copy(i, of.qdd);
-      rnea(of.model, of.x, of.qdd, of.f_ext, of.w);
-      std::copy_n(of.w.tau.data(), nv, out.row(i));
-    });
-    return out.release();
   });
 }
 

@@ -179,8 +179,7 @@ Robot::Robot(RobotInput read)
       forces(input.model),
       of_aba(input.model),
       w(input.model),
-      qdd(input.model.nv),
-      f_ext(input.model.parent.size()) {
+      qdd(input.model.nv) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const int at = facts_of(model.joint[i]).quaternion;
     if (at >= 0) quaternions.push_back(iq(i) + static_cast<std::size_t>(at));

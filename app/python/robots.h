@@ -26,11 +26,10 @@ class Robot : public OnlyConstructed {
   // Of the last call. aba() has its own workspace, for model.workspace().
   State<double> x;
   std::vector<double> q_python;  // with prescribed motions
-  Forces<double> forces;         // of aba()
+  Forces<double> forces;         // of aba(); its wrenches of rnea() too
   Workspace<double> of_aba, w;
   std::optional<MatrixWorkspace<double>> matrices;  // of minv() and aba_derivatives()
   std::vector<double> qdd;                          // of rnea()
-  std::vector<Force<double>> f_ext;                 // of rnea()
   bool has_run_aba = false;
   std::vector<std::size_t> quaternions;  // their start indices in q
 
