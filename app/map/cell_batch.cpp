@@ -27,9 +27,7 @@ bool is_plain(const SimulatePlan& plan) {
          !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
          scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
          std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
-           return c.rate == 0 && !c.printed && !c.soft_limits &&
-                  c.target != CouplingTarget::Kind::synthetic &&
-                  (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
+           return c.is_plain_spring() && c.target != CouplingTarget::Kind::synthetic;
          });
 }
 

@@ -123,10 +123,7 @@ bool has_theory(const SimulatePlan& plan) {
   const Integrator integrator = plan.run.integrator;
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
   if (!facts_of(integrator).implicit_force && !is_polynomial(integrator)) return false;
-  return std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
-    return c.rate == 0 && !c.printed && !c.soft_limits &&
-           (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
-  });
+  return std::ranges::all_of(scene.couplings, &SceneCoupling::is_plain_spring);
 }
 
 std::string scheme_words(const SimulatePlan& plan) {

@@ -20,10 +20,6 @@ void write_axis(JsonWriter& json, const char* name, const MapAxis& axis, const s
   json.members({{name, values}, {prefix + "_path", axis.path}, {prefix + "_unit", unit}});
 }
 
-std::string or_empty(double value) {
-  return std::isfinite(value) ? number_text(value) : "";
-}
-
 // One measure of all cells, by MapJob::index().
 std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasure measure) {
   std::vector<double> values(job.index(0, job.ny()));
@@ -57,15 +53,9 @@ std::string map_csv(const MapJob& job, const TileFile& file) {
   std::string text = csv_line({with(job.x.path, job.x_unit), with(job.y.path, job.y_unit)}) +
                      ",stable[1]," + with("max_error", job.error_unit) + "," +
                      with("mean_error", job.error_unit) + ",energy[J],passivity[J]\n";
-  std::vector<std::vector<double>> measures;
-  for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
-    measures.push_back(values_of(job, file, static_cast<MapMeasure>(m)));
-  for (int iy = 0; iy < job.ny(); ++iy)
-    for (int ix = 0; ix < job.nx(); ++ix) {
-      text += number_text(job.x.at(ix)) + "," + number_text(job.y.at(iy));
-      for (const auto& measure : measures) text += "," + or_empty(measure[job.index(ix, iy)]);
-      text += "\n";
-    }
+  for (const auto& [place, values] : file.cells)
+    text += number_text(job.x.at(place.second)) + "," + number_text(job.y.at(place.first)) +
+            csv_fields(values);
   return text;
 }
 
@@ -231,16 +221,14 @@ std::string script(Gnuplot& gnuplot, const MapJob& job, const TileFile& file,
   return text + curve_plots(gnuplot, job, curves) + "\n";
 }
 
-std::string title_of(const MapJob& job) {
-  return fmt::format("{} over {} and {}", name_of(job.measure), job.x.path, job.y.path);
-}
-
 }  // namespace
 
 std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
   Gnuplot gnuplot;
+  const std::string title =
+      fmt::format("{} over {} and {}", name_of(job.measure), job.x.path, job.y.path);
   std::string drawn =
-      gnuplot.svg("map", title_of(job), kWidth, kHeight, script(gnuplot, job, file, curves));
+      gnuplot.svg("map", title, kWidth, kHeight, script(gnuplot, job, file, curves));
   // A cell is one pixel of an image: no smoothing when it is enlarged.
   const std::string image = "<image ";
   if (const std::size_t at = drawn.find(image); at != std::string::npos)

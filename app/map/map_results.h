@@ -45,6 +45,8 @@ struct TileFile {
 TileFile empty_tile_file(const MapJob& job);
 
 std::string to_text(const TileFile& file);
+// The measures at the end of a line, each after a comma; empty: no value.
+std::string csv_fields(const CellValues& values);
 // Throws InputError if it is another kind of file, or damaged.
 TileFile read_tile_file(const std::filesystem::path& path);
 

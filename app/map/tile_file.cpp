@@ -90,18 +90,18 @@ TileFile empty_tile_file(const MapJob& job) {
   return file;
 }
 
+std::string csv_fields(const CellValues& values) {
+  std::string text;
+  for (const double value : values) text += "," + (std::isfinite(value) ? number_text(value) : "");
+  return text + "\n";
+}
+
 std::string to_text(const TileFile& file) {
   std::string text = kFirstLine;
   for (const std::string& line : file.head) text += std::string(kHeadMark) + line + "\n";
   text += table_heading() + "\n";
-  for (const auto& [place, values] : file.cells) {
-    text += std::to_string(place.second) + "," + std::to_string(place.first);
-    for (const double value : values) {
-      text += ',';
-      if (std::isfinite(value)) text += number_text(value);
-    }
-    text += '\n';
-  }
+  for (const auto& [place, values] : file.cells)
+    text += std::to_string(place.second) + "," + std::to_string(place.first) + csv_fields(values);
   return text;
 }
 

@@ -127,6 +127,11 @@ struct CouplingTraits {
   bool is_linear() const { return type == Type::linear; }
   // A torque about a joint, by its position.
   bool at_joint() const { return type == Type::torsional && measure == SpringSpace::joint; }
+  // A linear or torsional law at every step, without soft limits.
+  bool is_plain_spring() const {
+    return rate == 0 && !printed && !soft_limits &&
+           (law == CouplingSpec::Type::linear || law == CouplingSpec::Type::torsional);
+  }
 };
 
 struct CouplingDescription : CouplingTraits {
