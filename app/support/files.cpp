@@ -112,10 +112,6 @@ void TemporaryFiles::make_again() const {
   mkdir(folder_.c_str(), S_IRWXU);
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
-}
-
 void check_place(const std::filesystem::path& file, const char* option, DiagnosticList& faults) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);

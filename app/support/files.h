@@ -29,7 +29,6 @@ std::filesystem::path find_input(const std::filesystem::path& name);
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
 // Creates it with its parents. Throws InputError.
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
-std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if it names none
 // Adds a diagnostic if the file cannot be written, or its folder cannot be made; called before a
 // long computation.
 void check_place(const std::filesystem::path& file, const char* option, DiagnosticList& faults);

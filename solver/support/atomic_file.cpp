@@ -16,10 +16,6 @@
 namespace twinarm {
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-}
-
 // A lock on the whole file, which ends with the open file (fcntl(2)).
 struct flock whole_file() {
   struct flock lock {};
@@ -56,6 +52,10 @@ struct Place {
 std::array<Place, 64> places;
 
 }  // namespace
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
 
 TemporaryPath::TemporaryPath(const std::filesystem::path& path) {
   const std::string& name = path.native();

@@ -9,6 +9,8 @@
 
 namespace twinarm {
 
+std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if it names none
+
 // While it exists, remove_temporary_paths() removes this file, or folder with all that is in it.
 class TemporaryPath {
  public:
