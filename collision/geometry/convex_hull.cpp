@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -180,6 +179,28 @@ void complete_faces(ConvexHull& hull, std::span<const Vector3> points) {
   }
 }
 
+std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
+  std::vector<Polytope::Slab> slabs;
+  std::vector<bool> is_done(hull.normals.size(), false);
+  const auto key = [](const Vector3& n, std::size_t face) {
+    return std::tuple(n.x(), n.y(), n.z(), face);
+  };
+  std::vector<std::tuple<double, double, double, std::size_t>> faces;
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) faces.push_back(key(hull.normals[f], f));
+  std::sort(faces.begin(), faces.end());
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    if (is_done[f]) continue;
+    const Vector3& n = hull.normals[f];
+    slabs.push_back({n, 0, hull.offsets[f], false});
+    const auto found = std::lower_bound(faces.begin(), faces.end(), key(-n, f + 1));
+    const std::size_t g = found == faces.end() ? f : std::get<3>(*found);
+    if (g == f || hull.normals[g] != -n) continue;
+    slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
+    is_done[g] = true;
+  }
+  return slabs;
+}
+
 }  // namespace
 
 std::string ConvexHull::fault() const {
@@ -226,38 +247,12 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   return hull;
 }
 
-namespace {
-
-std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
-  std::vector<Polytope::Slab> slabs;
-  std::vector<bool> is_done(hull.normals.size(), false);
-  const auto key = [](const Vector3& n, std::size_t face) {
-    return std::tuple(n.x(), n.y(), n.z(), face);
-  };
-  std::vector<std::tuple<double, double, double, std::size_t>> faces;
-  for (std::size_t f = 0; f < hull.normals.size(); ++f) faces.push_back(key(hull.normals[f], f));
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
-    if (is_done[f]) continue;
-    const Vector3& n = hull.normals[f];
-    slabs.push_back({n, 0, hull.offsets[f], false});
-    const auto found = std::lower_bound(faces.begin(), faces.end(), key(-n, f + 1));
-    const std::size_t g = found == faces.end() ? f : std::get<3>(*found);
-    if (g == f || hull.normals[g] != -n) continue;
-    slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
-    is_done[g] = true;
-  }
-  return slabs;
-}
-
-}  // namespace
-
 // Each edge is traversed once by each of its two faces, in opposite directions.
-Polytope polyhedron(ConvexHull hull) {
+Polytope ConvexHull::polytope() const {
   Polytope polytope;
   std::vector<std::tuple<int, int, bool, int>> edges;  // smaller vertex, larger, reversed, face
-  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-    const std::vector<int>& loop = hull.faces[f];
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::vector<int>& loop = faces[f];
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
       edges.emplace_back(a, b, a != loop[i], static_cast<int>(f));
@@ -270,8 +265,8 @@ Polytope polyhedron(ConvexHull hull) {
     if (a == c && b == d && !is_reversed && is_opposite)
       polytope.edges.push_back({a, b, face, other});
   }
-  polytope.slabs = slabs_of(hull);
-  polytope.hull = std::move(hull);
+  polytope.slabs = slabs_of(*this);
+  polytope.hull = *this;
   constexpr std::size_t kSmallHull = 64;  // up to so many vertices a plain loop is as fast
   if (polytope.hull.vertices.size() > kSmallHull)
     polytope.table = SupportVertices(polytope.hull.vertices);
@@ -281,10 +276,6 @@ Polytope polyhedron(ConvexHull hull) {
 int Polytope::support_index(const Vector3& d) const {
   return static_cast<int>(table.empty() ? twinarm::support_index(hull.vertices, d)
                                         : table.support_index(d));
-}
-
-Polytope ConvexHull::polytope() const {
-  return polyhedron(*this);
 }
 
 ConvexHull box_hull(const Vector3& size) {

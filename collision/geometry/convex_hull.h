@@ -30,7 +30,7 @@ struct ConvexHull {
   Vector3 support(const Vector3& d) const { return support_point(vertices, d); }
   std::string fault() const;
   MassProperties solid(double density) const;
-  Polytope polytope() const;
+  Polytope polytope() const;  // with its edges and slabs
 };
 
 // Throws InputError if the points span no volume (fewer than 4, coplanar, not finite). Facets whose
@@ -61,9 +61,6 @@ struct Polytope {
   // Index of the support vertex in direction d (body frame).
   int support_index(const Vector3& d) const;
 };
-
-// Computes edges and slabs.
-Polytope polyhedron(ConvexHull hull);
 
 ConvexHull box_hull(const Vector3& size);
 

@@ -27,7 +27,7 @@ struct Box {
     const Vector3 q = m / 12 * size.cwiseAbs2();
     return centred_solid(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
   }
-  Polytope polytope() const { return polyhedron(box_hull(size)); }
+  Polytope polytope() const { return box_hull(size).polytope(); }
   SignedPoint nearest(const Vector3& p) const {
     const Vector3 half = size / 2;
     const Vector3 outside = p - p.cwiseMax(-half).cwiseMin(half);
