@@ -62,18 +62,10 @@ void Extent::add(const SceneMeshes& meshes, const Snapshot& snapshot) {
   }
 }
 
-void Extent::add(const Extent& other) {
-  for (const Vector3& p : other.points()) add(p);
-}
-
 double Extent::reach(const Vector3& p_W) const {
   double farthest = 0;
   for (const Vector3& p : points_) farthest = std::max(farthest, (p - p_W).norm());
   return farthest;
-}
-
-double Extent::radius() const {
-  return empty() ? 1.0 : std::max(1e-3, 0.5 * box_.sizes().norm());
 }
 
 double max_distance_of_interest(const std::vector<Extent>& instants) {

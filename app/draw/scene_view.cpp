@@ -103,9 +103,7 @@ void Scales::widen_run(const Model<double>& model, const Snapshot& snapshot) {
   for (const ShownCouplingForce& coupling : snapshot.coupling_forces)
     widen_to(coupling.kind == ShownCouplingForce::Kind::force ? force : couple,
              coupling.force_W.norm());
-  const TotalMotion total = total_motion(model, snapshot.k);
-  widen_to(momentum, total.linear.norm());
-  widen_to(angular, total.angular.norm());
+  widen_to(momentum, total_motion(model, snapshot.k).linear.norm());
   widen_to(kinetic, snapshot.kinetic);
   widen_to(elastic, snapshot.elastic);
   if (!std::isfinite(snapshot.potential)) return;
@@ -116,9 +114,8 @@ void Scales::widen_run(const Model<double>& model, const Snapshot& snapshot) {
 }
 
 void Scales::widen(const Scales& other) {
-  for (double Scales::*maximum :
-       {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
-        &Scales::angular, &Scales::kinetic, &Scales::elastic})
+  for (double Scales::*maximum : {&Scales::contact_force, &Scales::force, &Scales::couple,
+                                  &Scales::momentum, &Scales::kinetic, &Scales::elastic})
     widen_to(this->*maximum, other.*maximum);
   if (!other.has_potential) return;
   lowest_potential =
@@ -126,10 +123,6 @@ void Scales::widen(const Scales& other) {
   highest_potential = has_potential ? std::max(highest_potential, other.highest_potential)
                                     : other.highest_potential;
   has_potential = true;
-}
-
-double Scales::metres_per(double largest) const {
-  return largest > 0 ? round_down(0.4 * length / largest) : 0;
 }
 
 SceneView make_scene_view(const SceneModel& scene) {

@@ -20,13 +20,16 @@ inline constexpr double kFrameMargin = 1.18;  // picture size over scene size
 class Extent {
  public:
   void add(const SceneMeshes& meshes, const Snapshot& snapshot);
-  void add(const Extent& other);
+  void add(const Extent& other) {
+    for (const Vector3& p : other.points()) add(p);
+  }
   void add(const Vector3& p_W);
   double reach(const Vector3& p_W) const;  // largest distance of a point from p_W [m]
   bool empty() const { return points_.empty(); }
   const std::vector<Vector3>& points() const { return points_; }
   Vector3 center() const { return box_.center(); }
-  double radius() const;  // of the sphere about the bounding box [m]; at least 1 mm
+  // Of the sphere about the bounding box [m]; at least 1 mm.
+  double radius() const { return empty() ? 1.0 : std::max(1e-3, 0.5 * box_.sizes().norm()); }
   const Vector3& low() const { return box_.min(); }
   const Vector3& high() const { return box_.max(); }
 
@@ -67,7 +70,6 @@ struct Scales {
   double force = 0;          // of a coupling [N]
   double couple = 0;         // torque of a coupling [N m]
   double momentum = 0;       // [kg m/s]
-  double angular = 0;        // [kg m^2/s]
   double kinetic = 0;        // [J]
   double elastic = 0;
   double lowest_potential = 0, highest_potential = 0;
@@ -77,7 +79,9 @@ struct Scales {
   void widen(const Scales& other);
   double radius() const { return 0.006 * length; }  // of rods and arrows [m]
   // A round number of metres per unit; the largest arrow is about a third of the scene.
-  double metres_per(double largest) const;
+  double metres_per(double largest) const {
+    return largest > 0 ? round_down(0.4 * length / largest) : 0;
+  }
 };
 
 struct Trace {          // paths of bodies

@@ -139,7 +139,6 @@ void set_first_scales(SceneView& stage, const Snapshot& start) {
   scales.force = round_up(heaviest * g);
   scales.couple = round_up(0.1 * heaviest * g * length);
   scales.momentum = round_up(mass * speed);
-  scales.angular = round_up(mass * speed * length);
   scales.kinetic = round_up(0.5 * mass * speed * speed);
 }
 
@@ -166,9 +165,8 @@ void grow_scales(SceneView& stage, const Snapshot& snapshot) {
   seen.widen_run(*stage.model, snapshot);
   seen.widen_contacts(snapshot);
   if (const auto& s = snapshot.mouse_spring) seen.force = std::max(seen.force, s->force_W.norm());
-  for (double Scales::*scale_of :
-       {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
-        &Scales::angular, &Scales::kinetic, &Scales::elastic}) {
+  for (double Scales::*scale_of : {&Scales::contact_force, &Scales::force, &Scales::couple,
+                                   &Scales::momentum, &Scales::kinetic, &Scales::elastic}) {
     double& scale = stage.scales.*scale_of;
     const double value = std::exchange(seen.*scale_of, 0);
     if (value > scale && std::isfinite(value))
