@@ -24,6 +24,31 @@ const char* name_of(ThirdRow row) {
   return row == ThirdRow::drive ? "drive" : row == ThirdRow::implicit ? "implicit" : "as_printed";
 }
 
+constexpr double kGrowth = 1.5, kShare = 0.25;
+constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // relative to floor_
+
+std::vector<EnergyRow> numerical_rows(const std::vector<EnergyRow>& rows) {
+  std::vector<EnergyRow> found;
+  for (const EnergyRow& row : rows) switch (row.kind) {
+      case EnergyRowKind::numerical:
+      case EnergyRowKind::coupling_implicit:
+      case EnergyRowKind::constraint_stabilisation:
+      case EnergyRowKind::contact_stabilisation:
+      case EnergyRowKind::limit_stabilisation:
+        found.push_back(row);
+        break;
+      default:
+        break;
+    }
+  return found;
+}
+
+double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
+  for (const EnergyRow& row : rows)
+    if (row.name == name) return row.work;
+  return 0;
+}
+
 }  // namespace
 
 EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
@@ -210,35 +235,6 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
   rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});
   return rows;
 }
-
-namespace {
-
-constexpr double kGrowth = 1.5, kShare = 0.25;
-constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // relative to floor_
-
-std::vector<EnergyRow> numerical_rows(const std::vector<EnergyRow>& rows) {
-  std::vector<EnergyRow> found;
-  for (const EnergyRow& row : rows) switch (row.kind) {
-      case EnergyRowKind::numerical:
-      case EnergyRowKind::coupling_implicit:
-      case EnergyRowKind::constraint_stabilisation:
-      case EnergyRowKind::contact_stabilisation:
-      case EnergyRowKind::limit_stabilisation:
-        found.push_back(row);
-        break;
-      default:
-        break;
-    }
-  return found;
-}
-
-double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
-  for (const EnergyRow& row : rows)
-    if (row.name == name) return row.work;
-  return 0;
-}
-
-}  // namespace
 
 std::optional<Alarm> EnergyAlarm::look(double t, double kinetic,
                                        const std::vector<EnergyRow>& rows) {

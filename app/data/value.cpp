@@ -18,10 +18,6 @@ const Value* Value::find(const std::string& name) const {
   return nullptr;
 }
 
-Value* Value::find(const std::string& name) {
-  return const_cast<Value*>(std::as_const(*this).find(name));
-}
-
 Value& Value::put(const std::string& name, Value value) {
   Value* found = find(name);
   Value& place = found ? *found : members.emplace_back();
@@ -145,25 +141,6 @@ bool is_array_of_tables(const Value& value) {
          std::ranges::all_of(value.items, [](const Value& v) { return v.is_table(); });
 }
 
-}  // namespace
-
-std::string to_toml(const Value& root) {
-  std::string text;
-  for (const Value& member : root.members)
-    if (!is_array_of_tables(member))
-      text += toml_key(member.key) + " = " + inline_toml(member) + "\n";
-  for (const Value& member : root.members) {
-    if (!is_array_of_tables(member)) continue;
-    for (const Value& table : member.items) {
-      text += "\n[[" + toml_key(member.key) + "]]\n";
-      for (const Value& m : table.members) text += toml_key(m.key) + " = " + inline_toml(m) + "\n";
-    }
-  }
-  return text;
-}
-
-namespace {
-
 void visit(StateArchive& archive, Value& value, std::size_t depth) {
   archive.visit(value.kind, value.key, value.line, value.number, value.text);
   if (depth > 2 * kMaxTomlDepth || value.kind > Value::Kind::date)
@@ -187,6 +164,21 @@ Value parse_toml(const std::string& file, const std::string&) {
 }
 
 }  // namespace
+
+std::string to_toml(const Value& root) {
+  std::string text;
+  for (const Value& member : root.members)
+    if (!is_array_of_tables(member))
+      text += toml_key(member.key) + " = " + inline_toml(member) + "\n";
+  for (const Value& member : root.members) {
+    if (!is_array_of_tables(member)) continue;
+    for (const Value& table : member.items) {
+      text += "\n[[" + toml_key(member.key) + "]]\n";
+      for (const Value& m : table.members) text += toml_key(m.key) + " = " + inline_toml(m) + "\n";
+    }
+  }
+  return text;
+}
 
 void serialize(StateArchive& archive, Value& value) {
   visit(archive, value, 0);

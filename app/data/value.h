@@ -45,7 +45,9 @@ struct Value {
   bool is_table() const { return kind == Kind::table; }
 
   const Value* find(const std::string& name) const;  // a member, or nullptr
-  Value* find(const std::string& name);
+  Value* find(const std::string& name) {
+    return const_cast<Value*>(std::as_const(*this).find(name));
+  }
   // Replaces or adds the member.
   Value& put(const std::string& name, Value value);
 };

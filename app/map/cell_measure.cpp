@@ -47,6 +47,32 @@ double created(const std::vector<EnergyRow>& energy_balance) {
   return sum;
 }
 
+// The scene of the cell with the options of the command line.
+Value scene_of_cell(const MapJob& job, double x, double y) {
+  Value scene = job.scene;
+  DiagnosticList faults;
+  set_parameters(job, x, y, scene, faults);
+  faults.check();
+  if (job.run.step) scene.put("step", Value::of(*job.run.step));
+  if (job.run.duration) scene.put("duration", Value::of(*job.run.duration));
+  if (!job.run.integrator.empty()) scene.put("integrator", Value::of(job.run.integrator));
+  name_files_from_root(job.run.robot.model.parent_path(), scene);
+  return scene;
+}
+
+CellValues record_cell(const MapJob& job, const OpenedCell& cell,
+                       const std::filesystem::path& recording) {
+  SimulateOptions options;
+  options.robot.model = cell.scene;
+  options.record = recording;
+  const SimulatePlan plan = prepare_simulation(options);
+  CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
+  RunWatch watch;
+  watch.look = [&](SteppedRun& run) { measure.look(run); };
+  watch.tick = [](double) { check_interrupt(); };
+  return measure.values(record_plan(options, plan, watch));
+}
+
 }  // namespace
 
 MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
@@ -119,36 +145,6 @@ CellValues CellMeasure::values(const SimulateResult& result) const {
   return {1, joints_.iq.empty() ? none : max_, joints_.iq.empty() ? none : mean, energy,
           min_input_work_};
 }
-
-namespace {
-
-// The scene of the cell with the options of the command line.
-Value scene_of_cell(const MapJob& job, double x, double y) {
-  Value scene = job.scene;
-  DiagnosticList faults;
-  set_parameters(job, x, y, scene, faults);
-  faults.check();
-  if (job.run.step) scene.put("step", Value::of(*job.run.step));
-  if (job.run.duration) scene.put("duration", Value::of(*job.run.duration));
-  if (!job.run.integrator.empty()) scene.put("integrator", Value::of(job.run.integrator));
-  name_files_from_root(job.run.robot.model.parent_path(), scene);
-  return scene;
-}
-
-CellValues record_cell(const MapJob& job, const OpenedCell& cell,
-                       const std::filesystem::path& recording) {
-  SimulateOptions options;
-  options.robot.model = cell.scene;
-  options.record = recording;
-  const SimulatePlan plan = prepare_simulation(options);
-  CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
-  RunWatch watch;
-  watch.look = [&](SteppedRun& run) { measure.look(run); };
-  watch.tick = [](double) { check_interrupt(); };
-  return measure.values(record_plan(options, plan, watch));
-}
-
-}  // namespace
 
 std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
   const std::size_t comma = text.find(',');

@@ -28,6 +28,18 @@ std::vector<std::string> moving_joints(const RobotDescription& robot) {
   return names;
 }
 
+// Warns of an angle that is likely in degrees: beyond two turns, or far beyond the joint's limits.
+void check_angle(const std::string& place, const JointDescription& joint, double q,
+                 std::vector<std::string>& warnings) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const double max = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  if (std::abs(q) <= (joint.is_limited() ? std::min(2 * max + 1, 2 * kTurn) : 2 * kTurn)) return;
+  warnings.push_back(fmt::format(
+      "{}: q of joint '{}' is {:g} rad, {:.1f} turns; angles are in radians: {:g} degrees are "
+      "{:.5g}",
+      place, joint.name, q, std::abs(q) / kTurn, q, q * kTurn / 360));
+}
+
 }  // namespace
 
 // A quaternion's x, y, z are paired with the angular velocity; its w with none.
@@ -125,22 +137,6 @@ void normalise(TableReader& table, const std::string& key, std::span<double, 4> 
         "{}:{}: {}: the quaternion's length differs from 1 by {:.1e}; it was normalised",
         table.file(), table.find(key)->line, table.where(key), *length - 1));
 }
-
-namespace {
-
-// Warns of an angle that is likely in degrees: beyond two turns, or far beyond the joint's limits.
-void check_angle(const std::string& place, const JointDescription& joint, double q,
-                 std::vector<std::string>& warnings) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  const double max = std::max(std::abs(joint.lower), std::abs(joint.upper));
-  if (std::abs(q) <= (joint.is_limited() ? std::min(2 * max + 1, 2 * kTurn) : 2 * kTurn)) return;
-  warnings.push_back(fmt::format(
-      "{}: q of joint '{}' is {:g} rad, {:.1f} turns; angles are in radians: {:g} degrees are "
-      "{:.5g}",
-      place, joint.name, q, std::abs(q) / kTurn, q, q * kTurn / 360));
-}
-
-}  // namespace
 
 JointValueMap read_joint_values(TableReader& joints, const RobotDescription& robot, JointRows rows,
                                 std::vector<std::string>* warnings) {

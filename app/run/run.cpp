@@ -51,6 +51,19 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, Diagnostic
                "give --step, or --integrator dopri5", "run.tolerance");
 }
 
+constexpr double kDeepStart = 1e-4;  // penetration at the start that is reported [m]
+
+// The first floating base with joints; 0: none.
+std::size_t floating_base(const Model<double>& model) {
+  std::vector<std::size_t> root(model.parent.size());
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    root[i] = model.parent[i] == 0 ? i : root[static_cast<std::size_t>(model.parent[i])];
+    if (model.dofs(i) > 0 && root[i] != i && model.joint[root[i]] == JointType::free)
+      return root[i];
+  }
+  return 0;
+}
+
 }  // namespace
 
 RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
@@ -182,23 +195,6 @@ PostMortem examine_end(const StepReport& report, const Simulation& simulation,
                                : "the run diverged: a number is not finite";
   return found;
 }
-
-namespace {
-
-constexpr double kDeepStart = 1e-4;  // penetration at the start that is reported [m]
-
-// The first floating base with joints; 0: none.
-std::size_t floating_base(const Model<double>& model) {
-  std::vector<std::size_t> root(model.parent.size());
-  for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    root[i] = model.parent[i] == 0 ? i : root[static_cast<std::size_t>(model.parent[i])];
-    if (model.dofs(i) > 0 && root[i] != i && model.joint[root[i]] == JointType::free)
-      return root[i];
-  }
-  return 0;
-}
-
-}  // namespace
 
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
   const Model<double>& model = simulation.mechanism().model();

@@ -85,6 +85,18 @@ ServoResult run_unpaced(LiveRun& run, const ServoPlan& plan, const std::atomic<b
   return result;
 }
 
+DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, double h) {
+  constexpr double kPatience = 5;  // [s]
+  for (double waited = 0;; waited += h) {
+    const DeviceState state = device.poll(0);
+    if (state.alive) return state;
+    if (waited > kPatience)
+      throw InputError({{"", 0, "--device", device.description() + " sends no data",
+                         "switch it on, and end other programs that use it", "device.silent"}});
+    if (real_time) clock.wait();
+  }
+}
+
 }  // namespace
 
 ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
@@ -192,22 +204,6 @@ TickResult LiveRun::tick() noexcept {
   result.motor_torques = loop_->after_step(simulation_, h_, result.finite).torque;
   return result;
 }
-
-namespace {
-
-DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, double h) {
-  constexpr double kPatience = 5;  // [s]
-  for (double waited = 0;; waited += h) {
-    const DeviceState state = device.poll(0);
-    if (state.alive) return state;
-    if (waited > kPatience)
-      throw InputError({{"", 0, "--device", device.description() + " sends no data",
-                         "switch it on, and end other programs that use it", "device.silent"}});
-    if (real_time) clock.wait();
-  }
-}
-
-}  // namespace
 
 std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
                                               const std::function<void(double)>& tick) {

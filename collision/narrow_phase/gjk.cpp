@@ -127,6 +127,11 @@ Simplex nearest_point(const PosedShape& a, const PosedShape& b, const Pose& X_AB
   return simplex;
 }
 
+double face_tolerance(const PosedShape& body) {
+  constexpr double kScatter = 1e-5;  // relative to the extent: 100 times that of convex_hull()
+  return body.solid.core.radius + kScatter * body.solid.half.norm();
+}
+
 }  // namespace
 
 CoreDistance core_distance(const PosedShape& a, const PosedShape& b, double far) {
@@ -145,15 +150,6 @@ CoreDistance core_distance(const PosedShape& a, const PosedShape& b, double far)
   answer.p_WB = a.X_WG * p_B;
   return answer;
 }
-
-namespace {
-
-double face_tolerance(const PosedShape& body) {
-  constexpr double kScatter = 1e-5;  // relative to the extent: 100 times that of convex_hull()
-  return body.solid.core.radius + kScatter * body.solid.half.norm();
-}
-
-}  // namespace
 
 bool has_duality_gap(double distance, double core_overlap) {
   return distance + core_overlap > 1e-8 + 1e-6 * distance;

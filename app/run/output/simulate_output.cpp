@@ -148,14 +148,6 @@ class TableOutput : public RunOutput {
   Kinematics k_;
 };
 
-}  // namespace
-
-std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan) {
-  return std::make_unique<TableOutput>(input, plan);
-}
-
-namespace {
-
 class CsvOutput : public RunOutput {
  public:
   explicit CsvOutput(const RobotInput& input) : input_(input), k_(input.model) {
@@ -179,6 +171,10 @@ class CsvOutput : public RunOutput {
 };
 
 }  // namespace
+
+std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan) {
+  return std::make_unique<TableOutput>(input, plan);
+}
 
 std::unique_ptr<RunOutput> csv_output(const SimulateInput& input) {
   return std::make_unique<CsvOutput>(input.robot);

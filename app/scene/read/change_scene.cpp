@@ -116,6 +116,30 @@ class PathWalk {
   const std::string& where_;
 };
 
+// A number, true or false, numbers separated by commas, or a text.
+Value value_of_text(const std::string& text) {
+  if (const auto number = parse_number(text)) return Value::of(*number);
+  if (text == "true" || text == "false") return Value::flag(text == "true");
+  if (text.find(',') == std::string::npos) return Value::of(text);
+  std::vector<double> numbers;  // "0,0,-1.62"
+  for (const std::string& item : split(text)) {
+    const auto number = parse_number(item);
+    if (!number) return Value::of(text);
+    numbers.push_back(*number);
+  }
+  return Value::numbers(numbers);
+}
+
+constexpr std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
+
+// Adds an optional top-level key, so that a path can denote it.
+void add_optional_key(const std::string& name, int line, Value& scene) {
+  if (scene.find(name) || std::ranges::find(kOptional, name) == kOptional.end()) return;
+  // To be replaced by the new value.
+  scene.put(name, name == "gravity" ? Value::numbers(SceneDescription().gravity) : Value::of(0.0))
+      .line = line;
+}
+
 }  // namespace
 
 ValuePath::ValuePath(const std::string& path) : text(path) {
@@ -158,34 +182,6 @@ void set_number(Value& scene, const std::string& text, double value, int line,
     target.value->line = line;
   }
 }
-
-namespace {
-
-// A number, true or false, numbers separated by commas, or a text.
-Value value_of_text(const std::string& text) {
-  if (const auto number = parse_number(text)) return Value::of(*number);
-  if (text == "true" || text == "false") return Value::flag(text == "true");
-  if (text.find(',') == std::string::npos) return Value::of(text);
-  std::vector<double> numbers;  // "0,0,-1.62"
-  for (const std::string& item : split(text)) {
-    const auto number = parse_number(item);
-    if (!number) return Value::of(text);
-    numbers.push_back(*number);
-  }
-  return Value::numbers(numbers);
-}
-
-constexpr std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
-
-// Adds an optional top-level key, so that a path can denote it.
-void add_optional_key(const std::string& name, int line, Value& scene) {
-  if (scene.find(name) || std::ranges::find(kOptional, name) == kOptional.end()) return;
-  // To be replaced by the new value.
-  scene.put(name, name == "gravity" ? Value::numbers(SceneDescription().gravity) : Value::of(0.0))
-      .line = line;
-}
-
-}  // namespace
 
 Change parse_change(const std::string& text) {
   const std::size_t equal = text.find('=');

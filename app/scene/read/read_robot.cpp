@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
@@ -50,9 +50,14 @@ void set_damping(TableReader& table, SceneReader& reader, RobotDescription& robo
   }
 }
 
-void drop_limits(RobotDescription& robot) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (JointDescription& joint : robot.joints) joint.lower = -kInfinity, joint.upper = kInfinity;
+// Makes the joint fixed at the position q.
+void fix_at(JointDescription& joint, double q) {
+  const Matrix3 R = joint.X_PJ().R;
+  if (joint.type == JointDescription::Type::prismatic)
+    joint.origin.xyz += R * joint.axis * q;
+  else if (q != 0)
+    joint.origin.turn_to(R * Eigen::AngleAxisd(q, joint.axis).toRotationMatrix());
+  joint.type = JointDescription::Type::fixed;
 }
 
 }  // namespace
@@ -94,7 +99,9 @@ void SceneReader::read_robot(const Value& value) {
     }
   const bool limits = table.flag("limits").value_or(true);
   if (readable) {
-    if (!limits) drop_limits(robot.description);
+    if (!limits)
+      for (JointDescription& joint : robot.description.joints)
+        joint.lower = -HUGE_VAL, joint.upper = HUGE_VAL;
     read_masses(*this, table, robot);
     robot.q = read_joints(table, "q", robot.description, JointRows::coordinates);
     robot.qd = read_joints(table, "qd", robot.description, JointRows::velocities);
@@ -108,20 +115,6 @@ void SceneReader::read_robot(const Value& value) {
   table.done();
   scene.robots.push_back(std::move(robot));
 }
-
-namespace {
-
-// Makes the joint fixed at the position q.
-void fix_at(JointDescription& joint, double q) {
-  const Matrix3 R = joint.X_PJ().R;
-  if (joint.type == JointDescription::Type::prismatic)
-    joint.origin.xyz += R * joint.axis * q;
-  else if (q != 0)
-    joint.origin.turn_to(R * Eigen::AngleAxisd(q, joint.axis).toRotationMatrix());
-  joint.type = JointDescription::Type::fixed;
-}
-
-}  // namespace
 
 void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
   const Value* list = table.find("lock");

@@ -19,6 +19,17 @@ std::vector<Diagnostic> in_order(std::vector<Diagnostic> faults, const std::stri
   return faults;
 }
 
+// Splits "arm/joint1": index of the robot, or of the only one if there is no slash (-1: none), and
+// the name in it.
+std::pair<int, std::string> robot_and_item(const SceneDescription& scene, const std::string& name) {
+  const auto slash = name.find('/');
+  const std::string robot = slash == std::string::npos ? "" : name.substr(0, slash);
+  const std::string item = name.substr(slash + 1);  // npos + 1 is 0
+  if (robot.empty()) return {scene.robots.size() == 1 ? 0 : -1, item};
+  const auto found = std::ranges::find(scene.robots, robot, &RobotInScene::name);
+  return {found == scene.robots.end() ? -1 : static_cast<int>(found - scene.robots.begin()), item};
+}
+
 }  // namespace
 
 SceneDescription read_scene(const std::filesystem::path& file) {
@@ -143,21 +154,6 @@ std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
                 "give it absolute, relative to the scene, or below assets/", "file.missing");
   return std::nullopt;
 }
-
-namespace {
-
-// Splits "arm/joint1": index of the robot, or of the only one if there is no slash (-1: none), and
-// the name in it.
-std::pair<int, std::string> robot_and_item(const SceneDescription& scene, const std::string& name) {
-  const auto slash = name.find('/');
-  const std::string robot = slash == std::string::npos ? "" : name.substr(0, slash);
-  const std::string item = name.substr(slash + 1);  // npos + 1 is 0
-  if (robot.empty()) return {scene.robots.size() == 1 ? 0 : -1, item};
-  const auto found = std::ranges::find(scene.robots, robot, &RobotInScene::name);
-  return {found == scene.robots.end() ? -1 : static_cast<int>(found - scene.robots.begin()), item};
-}
-
-}  // namespace
 
 std::optional<SceneReference> find_reference(const SceneDescription& scene,
                                              const std::string& name) {

@@ -77,6 +77,30 @@ bool is_played(TargetKind kind) {
 constexpr const char* kNoGain = "this type of coupling has no such gain";
 const NumberRange kPositive{Sign::positive};
 
+// Whether the table is a coupling with gains per angle.
+bool is_torsional_table(const Value& table) {
+  const Value* type = table.find("type");
+  return type && type->text == "torsional";
+}
+
+// Keys without a row.
+constexpr std::array<std::pair<const char*, const char*>, 15> kOtherUnits{
+    {{"step", "s"},
+     {"duration", "s"},
+     {"gravity", "m/s²"},
+     {"mass", "kg"},
+     {"density", "kg/m³"},
+     {"inertia", "kg m²"},
+     {"position", "m"},
+     {"point", "m"},
+     {"point_b", "m"},
+     {"com", "m"},
+     {"offset", "m"},
+     {"linear_velocity", "m/s"},
+     {"linear", "m/s"},
+     {"angular_velocity", "rad/s"},
+     {"angular", "rad/s"}}};
+
 }  // namespace
 
 const std::vector<CouplingKey>& coupling_keys() {
@@ -175,34 +199,6 @@ std::optional<double> read_number(TableReader& table, const char* key, const Num
     table.fault(key, range.problem, range.fix, "scene.range");
   return value;
 }
-
-namespace {
-
-// Whether the table is a coupling with gains per angle.
-bool is_torsional_table(const Value& table) {
-  const Value* type = table.find("type");
-  return type && type->text == "torsional";
-}
-
-// Keys without a row.
-constexpr std::array<std::pair<const char*, const char*>, 15> kOtherUnits{
-    {{"step", "s"},
-     {"duration", "s"},
-     {"gravity", "m/s²"},
-     {"mass", "kg"},
-     {"density", "kg/m³"},
-     {"inertia", "kg m²"},
-     {"position", "m"},
-     {"point", "m"},
-     {"point_b", "m"},
-     {"com", "m"},
-     {"offset", "m"},
-     {"linear_velocity", "m/s"},
-     {"linear", "m/s"},
-     {"angular_velocity", "rad/s"},
-     {"angular", "rad/s"}}};
-
-}  // namespace
 
 std::string unit_of_number(const Value& scene, const std::string& text) {
   Value copy = scene;

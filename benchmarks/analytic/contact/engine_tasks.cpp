@@ -90,6 +90,34 @@ Task less_elastic(Task task) {
   return task;
 }
 
+using contact_plots::place, contact_plots::Scene, contact_plots::Values;
+using Plot = ContactCasePlot;
+
+// ---- plots ----
+
+constexpr const char* kPublished =
+    "Only the step of the published figures, 1 ms, is run; other engines: "
+    "docs/understand/accuracy_vs_other_engines.md.";
+// Of the box, pulled by 150 N, and of the ball in a corner.
+double exact_box_and_ball(std::size_t k, double t) {
+  const double net = 150 - 0.4 * (10 + 25) * kGravity, ball = net / 10 / (3.5 + 25 / 10.);
+  return t * (k == 0 ? (net - 25 * ball) / 10 : ball);
+}
+// Fall of 4.9 m, e = 1.
+double exact_bouncing(std::size_t, double t) {
+  const double fall = std::sqrt(2 * 4.9 / kGravity), since = std::remainder(t, 2 * fall);
+  return 5 - kGravity * since * since / 2;
+}
+
+AnalyticCase task_case(const char* name, double tolerance, const Task& task, const Task& mutant,
+                       const Plot& plot) {
+  AnalyticCase c(name, tolerance, [=](bool is_mutant) {
+    return CaseResult{error_of(is_mutant ? mutant : task, task)};
+  });
+  c.plot = std::make_shared<const Plot>(plot.without_convergence(kPublished));
+  return c;
+}
+
 }  // namespace
 
 Task rolling(bool diagonal) {
@@ -155,37 +183,6 @@ double MeanError::now(double t, const std::vector<Moving>& bodies) const {
   return std::pow(energy_of(task_, bodies) - task_.energy, 2);
 }
 
-namespace {
-
-using contact_plots::place, contact_plots::Scene, contact_plots::Values;
-using Plot = ContactCasePlot;
-
-// ---- plots ----
-
-constexpr const char* kPublished =
-    "Only the step of the published figures, 1 ms, is run; other engines: "
-    "docs/understand/accuracy_vs_other_engines.md.";
-// Of the box, pulled by 150 N, and of the ball in a corner.
-double exact_box_and_ball(std::size_t k, double t) {
-  const double net = 150 - 0.4 * (10 + 25) * kGravity, ball = net / 10 / (3.5 + 25 / 10.);
-  return t * (k == 0 ? (net - 25 * ball) / 10 : ball);
-}
-// Fall of 4.9 m, e = 1.
-double exact_bouncing(std::size_t, double t) {
-  const double fall = std::sqrt(2 * 4.9 / kGravity), since = std::remainder(t, 2 * fall);
-  return 5 - kGravity * since * since / 2;
-}
-
-AnalyticCase task_case(const char* name, double tolerance, const Task& task, const Task& mutant,
-                       const Plot& plot) {
-  AnalyticCase c(name, tolerance, [=](bool is_mutant) {
-    return CaseResult{error_of(is_mutant ? mutant : task, task)};
-  });
-  c.plot = std::make_shared<const Plot>(plot.without_convergence(kPublished));
-  return c;
-}
-
-}  // namespace
 }  // namespace twinarm::engine_tasks
 
 namespace twinarm {
