@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "coupling/device/device_motion.h"

@@ -1,7 +1,5 @@
 #include "coupling/analysis/gains.h"
 
-#include <algorithm>
-
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/step_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"

@@ -2,7 +2,6 @@
 // Allocated once. In the common axes of Workspace::Xr.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include <csetjmp>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "collision/sandbox/isolated_parser.h"

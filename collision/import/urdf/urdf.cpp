@@ -1,11 +1,6 @@
 // Reads a robot in URDF: XML -> RobotDescription -> robot_check.h.
 #include "collision/import/urdf/urdf.h"
 
-#include <algorithm>
-#include <cctype>
-#include <cstdint>
-#include <utility>
-
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf_parts.h"
 #include "collision/import/urdf/urdf_xml.h"

@@ -1,7 +1,6 @@
 // A tree of XML elements with their attributes; text between elements is left out.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
