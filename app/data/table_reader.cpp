@@ -144,10 +144,6 @@ std::vector<const Value*> TableReader::tables(const std::string& key) {
   return found;
 }
 
-const Value* TableReader::table(const std::string& key) {
-  return find(key, Value::Kind::table, place_ ? "an object" : "a table");
-}
-
 std::string TableReader::where(const std::string& key) const {
   if (key.empty()) return where_;
   return place_ ? place_->before + key + place_->after : where_ + ", " + key;
@@ -158,10 +154,6 @@ void TableReader::fault(const std::string& key, std::string problem, std::string
   const Value* value = table_.find(key);
   faults_.add({file_, value ? value->line : table_.line, where(key), std::move(problem),
                std::move(fix), code});
-}
-
-void TableReader::missing(const std::string& key, std::string fix) {
-  if (!find(key)) fault(key, "is missing", std::move(fix), "scene.missing");
 }
 
 void TableReader::done() {

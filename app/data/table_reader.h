@@ -52,7 +52,9 @@ class TableReader {
   // Index of the name in `names`.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
   std::vector<const Value*> tables(const std::string& key);
-  const Value* table(const std::string& key);
+  const Value* table(const std::string& key) {
+    return find(key, Value::Kind::table, place_ ? "an object" : "a table");
+  }
 
   const Value& value() const { return table_; }
   const std::string& file() const { return file_; }
@@ -60,7 +62,9 @@ class TableReader {
 
   // At the line of the key if it is given, else of the table.
   void fault(const std::string& key, std::string problem, std::string fix, std::string_view code);
-  void missing(const std::string& key, std::string fix);
+  void missing(const std::string& key, std::string fix) {
+    if (!find(key)) fault(key, "is missing", std::move(fix), "scene.missing");
+  }
   bool is_full() const { return faults_.is_full(); }  // more diagnostics are dropped
   void done();
 

@@ -44,6 +44,37 @@ struct QuantityConverter {
   }
 };
 
+std::vector<DisplayedQuantity> quantities_of(const Inspection& in, int pass, std::size_t body) {
+  const QuantityConverter converter{in, body, LinkAxes(in, body)};
+  std::vector<DisplayedQuantity> all;
+  const auto take = [&](const Quantity& quantity, const auto& field) {
+    const bool is_input = pass == 1 && quantity.pass == 0;
+    if (quantity.pass != pass && !is_input) return;
+    if (quantity.by != Quantity::By::body && converter.axes.nv() == 0) return;
+    DisplayedQuantity shown = converter.of(quantity, field);
+    if (is_input && shown.value.isZero(0)) return;
+    all.push_back(std::move(shown));
+  };
+  in.forces.describe(take);
+  if (pass == 1) {
+    using By = Quantity::By;
+    all.push_back({{"I", 1, By::body, "spatial inertia of the body alone", "kg m^2, kg m, kg",
+                    "of the model; (2.63)"},
+                   kLinkFrame,
+                   converter.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
+    in.w.describe(take);
+    all.push_back({{"p", 1, By::body, "bias force of the body alone", "N m; N",
+                    "p = v x* I v - f_ext, table 7.1; (2.32)"},
+                   kLinkFrame,
+                   converter.axes.show(bias_force(in, body))});
+    return all;
+  }
+  in.w.describe(take);
+  // Children of the base pass no inertia on.
+  if (in.parent(body) > 0) in.trace.describe(take);
+  return all;
+}
+
 }  // namespace
 
 Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce>& actors) {
@@ -97,12 +128,6 @@ LinkFrame::LinkFrame(const Model<double>& model, std::size_t body)
     : R_LB_(link_from_body(model, body)),
       R_PB_(link_from_body(model, static_cast<std::size_t>(std::max(model.parent[body], 0)))) {}
 
-Vector6 LinkFrame::show(const Motion<double>& m) const {
-  return (Vector6() << R_LB_ * to_eigen(m.w), R_LB_ * to_eigen(m.v)).finished();
-}
-Vector6 LinkFrame::show(const Force<double>& f) const {
-  return (Vector6() << R_LB_ * to_eigen(f.n), R_LB_ * to_eigen(f.f)).finished();
-}
 Matrix6 LinkFrame::show(const ArticulatedInertia<double>& a) const {
   const auto rotated = [&](const Mat3<double>& block) {
     return Matrix3(R_LB_ * to_eigen(block) * R_LB_.transpose());
@@ -125,12 +150,6 @@ Matrix6 LinkFrame::show(const Transform<double>& Xup) const {
   shown.topLeftCorner<3, 3>() = shown.bottomRightCorner<3, 3>() = E;
   shown.bottomLeftCorner<3, 3>() = -E * cross;
   return shown;
-}
-Matrix3 LinkFrame::rotation_from_parent(const Transform<double>& Xup) const {
-  return R_LB_ * to_eigen(Xup.E) * R_PB_.transpose();
-}
-Vector3 LinkFrame::translation_from_parent(const Transform<double>& Xup) const {
-  return R_PB_ * to_eigen(Xup.r);
 }
 
 LinkAxes::LinkAxes(const Inspection& in, std::size_t body)
@@ -162,41 +181,6 @@ Eigen::MatrixXd LinkAxes::square(const std::vector<double>& D) const {
 Force<double> bias_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }
-
-namespace {
-
-std::vector<DisplayedQuantity> quantities_of(const Inspection& in, int pass, std::size_t body) {
-  const QuantityConverter converter{in, body, LinkAxes(in, body)};
-  std::vector<DisplayedQuantity> all;
-  const auto take = [&](const Quantity& quantity, const auto& field) {
-    const bool is_input = pass == 1 && quantity.pass == 0;
-    if (quantity.pass != pass && !is_input) return;
-    if (quantity.by != Quantity::By::body && converter.axes.nv() == 0) return;
-    DisplayedQuantity shown = converter.of(quantity, field);
-    if (is_input && shown.value.isZero(0)) return;
-    all.push_back(std::move(shown));
-  };
-  in.forces.describe(take);
-  if (pass == 1) {
-    using By = Quantity::By;
-    all.push_back({{"I", 1, By::body, "spatial inertia of the body alone", "kg m^2, kg m, kg",
-                    "of the model; (2.63)"},
-                   kLinkFrame,
-                   converter.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
-    in.w.describe(take);
-    all.push_back({{"p", 1, By::body, "bias force of the body alone", "N m; N",
-                    "p = v x* I v - f_ext, table 7.1; (2.32)"},
-                   kLinkFrame,
-                   converter.axes.show(bias_force(in, body))});
-    return all;
-  }
-  in.w.describe(take);
-  // Children of the base pass no inertia on.
-  if (in.parent(body) > 0) in.trace.describe(take);
-  return all;
-}
-
-}  // namespace
 
 std::string unit_at_joint(const Model<double>& model, std::size_t body, const std::string& unit) {
   const std::size_t end = unit.find("; ");

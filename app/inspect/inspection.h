@@ -89,12 +89,22 @@ class LinkFrame {
  public:
   LinkFrame(const Model<double>& model, std::size_t body);
 
-  Vector6 show(const Motion<double>& m) const;
-  Vector6 show(const Force<double>& f) const;
+  Vector6 show(const Motion<double>& m) const {
+    return (Vector6() << R_LB_ * to_eigen(m.w), R_LB_ * to_eigen(m.v)).finished();
+  }
+  Vector6 show(const Force<double>& f) const {
+    return (Vector6() << R_LB_ * to_eigen(f.n), R_LB_ * to_eigen(f.f)).finished();
+  }
   Matrix6 show(const ArticulatedInertia<double>& a) const;
   Matrix6 show(const Transform<double>& Xup) const;
-  Matrix3 rotation_from_parent(const Transform<double>& Xup) const;     // E
-  Vector3 translation_from_parent(const Transform<double>& Xup) const;  // r, parent's link axes [m]
+  // E, rotation.
+  Matrix3 rotation_from_parent(const Transform<double>& Xup) const {
+    return R_LB_ * to_eigen(Xup.E) * R_PB_.transpose();
+  }
+  // r, parent's link axes [m].
+  Vector3 translation_from_parent(const Transform<double>& Xup) const {
+    return R_PB_ * to_eigen(Xup.r);
+  }
 
  private:
   Matrix3 R_LB_, R_PB_;  // of the body, of its parent

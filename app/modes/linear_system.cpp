@@ -52,6 +52,25 @@ void add_turning(const Model<double>& model, const State<double>& x, Eigen::Matr
   }
 }
 
+// Time unit in which the entries of A have similar size.
+double unit_of_time(const Eigen::MatrixXd& A) {
+  const Index n = A.rows() / 2;
+  const double stiff = A.bottomLeftCorner(n, n).lpNorm<Eigen::Infinity>();
+  const double damp = std::max(A.bottomRightCorner(n, n).lpNorm<Eigen::Infinity>(),
+                               A.topLeftCorner(n, n).lpNorm<Eigen::Infinity>());
+  const double rate = std::max(std::sqrt(stiff), damp);
+  return rate > 0 ? 1 / rate : 1;
+}
+
+Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
+  constexpr double kNothing = 1e-6;
+  const Index n = vector.size() / 2;
+  Eigen::VectorXcd shape = vector.head(n);
+  if (shape.lpNorm<Eigen::Infinity>() < kNothing * vector.lpNorm<Eigen::Infinity>())
+    shape = vector.tail(n);  // drift: the velocity gives the direction
+  return scaled({eigenvalue, shape});
+}
+
 }  // namespace
 
 LinearSystem linearise(const Model<double>& model, const State<double>& x,
@@ -89,33 +108,6 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x,
   system.B.bottomRows(n) = solve_symmetric(M_y, Eigen::MatrixXd::Identity(n, n));
   return system;
 }
-
-double Mode::damping_ratio() const {
-  return eigenvalue == 0.0 ? 0 : -eigenvalue.real() / std::abs(eigenvalue);
-}
-
-namespace {
-
-// Time unit in which the entries of A have similar size.
-double unit_of_time(const Eigen::MatrixXd& A) {
-  const Index n = A.rows() / 2;
-  const double stiff = A.bottomLeftCorner(n, n).lpNorm<Eigen::Infinity>();
-  const double damp = std::max(A.bottomRightCorner(n, n).lpNorm<Eigen::Infinity>(),
-                               A.topLeftCorner(n, n).lpNorm<Eigen::Infinity>());
-  const double rate = std::max(std::sqrt(stiff), damp);
-  return rate > 0 ? 1 / rate : 1;
-}
-
-Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
-  constexpr double kNothing = 1e-6;
-  const Index n = vector.size() / 2;
-  Eigen::VectorXcd shape = vector.head(n);
-  if (shape.lpNorm<Eigen::Infinity>() < kNothing * vector.lpNorm<Eigen::Infinity>())
-    shape = vector.tail(n);  // drift: the velocity gives the direction
-  return scaled({eigenvalue, shape});
-}
-
-}  // namespace
 
 Mode scaled(Mode mode) {
   if (mode.shape.size() == 0) return mode;

@@ -48,7 +48,9 @@ struct Mode {
   Eigen::VectorXcd shape;           // dq; its largest component is 1
   double frequency() const { return std::abs(eigenvalue); }  // undamped [rad/s]
   // -Re / |eigenvalue|, 0 for an eigenvalue of 0.
-  double damping_ratio() const;
+  double damping_ratio() const {
+    return eigenvalue == 0.0 ? 0 : -eigenvalue.real() / std::abs(eigenvalue);
+  }
 };
 Mode scaled(Mode mode);  // its largest component to 1
 // By ascending frequency. Eigenvalues that vanish by the rank of A are exactly zero.

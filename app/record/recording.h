@@ -110,7 +110,7 @@ class RecordingWriter {
   // Index of a row of the energy or momentum balance (`kind`: kName or kMomentumName of
   // recording_format); writes new names.
   std::uint32_t number_of(char kind, const std::string& row);
-  void alarm(const std::string& words);
+  void alarm(const std::string& words) { block(recording_format::kAlarm, words); }
   // Whether the frame of this step becomes a keyframe, and so needs its memory.
   bool needs_memory(long step) const { return !keyframe_ || step - *keyframe_ >= keyframe_every_; }
   void write(RecordedFrame& frame);

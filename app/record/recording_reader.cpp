@@ -181,10 +181,6 @@ const Recording::Keyframe& Recording::keyframe_of(std::size_t n) const {
   return std::ranges::upper_bound(keyframes_, n, {}, &Keyframe::frame)[-1];
 }
 
-std::size_t Recording::keyframe(std::size_t n) const {
-  return version_ < 4 ? n : keyframe_of(n).frame;
-}
-
 RecordedFrame Recording::read_frame(std::size_t n) const {
   using recording_format::kFrameStart;
   RecordedFrame frame;

@@ -29,7 +29,7 @@ class Recording {
   std::size_t size() const { return places_.size(); }
   RecordedFrame frame(std::size_t n) const;
   // The last frame at or before n that has memory.
-  std::size_t keyframe(std::size_t n) const;
+  std::size_t keyframe(std::size_t n) const { return version_ < 4 ? n : keyframe_of(n).frame; }
   // The last frame at or before t (up to a millionth of a step after it). Throws InputError that
   // names `option` if t is outside the recording.
   std::size_t at(double t, const std::string& option) const;

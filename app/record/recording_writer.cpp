@@ -58,10 +58,6 @@ std::uint32_t RecordingWriter::number_of(char kind, const std::string& row) {
   return known.last = number;
 }
 
-void RecordingWriter::alarm(const std::string& words) {
-  block(recording_format::kAlarm, words);
-}
-
 void RecordingWriter::write(RecordedFrame& frame) {
   if (frame_bytes_ == 0) out_.keep();
   if (needs_memory(frame.step)) {

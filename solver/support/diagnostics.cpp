@@ -64,12 +64,6 @@ InputError::InputError(std::vector<Diagnostic> faults)
     : std::runtime_error(truncated_lines(faults)), faults_(std::move(faults)) {}
 InputError::~InputError() = default;
 
-void DiagnosticList::add(Diagnostic fault) {
-  add_diagnostic(faults_, std::move(fault));
-}
-void DiagnosticList::add(const std::vector<Diagnostic>& more) {
-  for (const Diagnostic& fault : more) add(fault);
-}
 void check_step_size(double h) {
   if (h > 0 && std::isfinite(h)) return;
   throw InputError({{"", 0, "step size", "is " + number_text(h) + " s, must be positive and finite",

@@ -46,12 +46,14 @@ class InputError : public std::runtime_error {
 // Collects errors; check() throws them together.
 class DiagnosticList {
  public:
-  void add(Diagnostic fault);
+  void add(Diagnostic fault) { add_diagnostic(faults_, std::move(fault)); }
   // Not about a file.
   void add(std::string where, std::string problem, std::string fix, std::string_view code) {
     add(Diagnostic{"", 0, std::move(where), std::move(problem), std::move(fix), code});
   }
-  void add(const std::vector<Diagnostic>& more);
+  void add(const std::vector<Diagnostic>& more) {
+    for (const Diagnostic& fault : more) add(fault);
+  }
   bool empty() const { return faults_.empty(); }
   bool is_full() const { return faults_.size() > kMaxFaults; }
   const std::vector<Diagnostic>& faults() const { return faults_; }

@@ -13,10 +13,6 @@
 
 namespace twinarm {
 
-void OptionAdder::group(const char* heading) const {
-  command.option_defaults()->group(heading)->always_capture_default();
-}
-
 CLI::Option* OptionAdder::as_file(CLI::Option* option) {
   const auto fault = [](const std::string& name) {
     return name.empty() ? std::string("the name of a file is empty") : std::string();
@@ -51,6 +47,17 @@ bool is_other_kind(const std::filesystem::path& file, const std::string& endings
   const std::string kind = file.extension().string() + " ";
   return (endings + " ").find(kind) == std::string::npos && kEndings.find(kind) != kEndings.npos;
 }
+
+// `words`: the range, for help and errors.
+template <class IsValid>
+CLI::Validator number_that(const std::string& words, IsValid is_valid) {
+  const auto fault = [=](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    return value && is_valid(*value) ? "" : fmt::format("must be {}, is {}", words, text);
+  };
+  return CLI::Validator(fault, words);
+}
+
 }  // namespace
 
 void check_input(const std::filesystem::path& file, const std::string& option,
@@ -107,12 +114,6 @@ void check_files(const FileOptions& files) {
   faults.check();
 }
 
-void OptionAdder::json(bool& value) const {
-  (*this)("--json", value, "print one JSON object on stdout");
-}
-void OptionAdder::assets(std::filesystem::path& folder) const {
-  (*this)("--assets", folder, "folder with robots and settings; default: beside the program");
-}
 void OptionAdder::scene_step(std::optional<double>& step, std::string& integrator) const {
   (*this)("--step", step, "time step [s]; default: the scene's");
   (*this)("--integrator", integrator,
@@ -143,20 +144,6 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
   (*this)("--min-mass", options.missing.min_mass,
           "mass [kg] of links that still have none, as a small sphere (URDF); default: none");
 }
-
-namespace {
-
-// `words`: the range, for help and errors.
-template <class IsValid>
-CLI::Validator number_that(const std::string& words, IsValid is_valid) {
-  const auto fault = [=](const std::string& text) {
-    const std::optional<double> value = parse_number(text);
-    return value && is_valid(*value) ? "" : fmt::format("must be {}, is {}", words, text);
-  };
-  return CLI::Validator(fault, words);
-}
-
-}  // namespace
 
 CLI::Validator above_zero(double max) {
   return number_that("above 0" + (std::isinf(max) ? "" : fmt::format(", at most {}", max)),

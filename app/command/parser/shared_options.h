@@ -29,7 +29,9 @@ struct OptionAdder {
   std::shared_ptr<FileOptions> files = std::make_shared<FileOptions>();
 
   // The options added after this call appear under this heading in the help, with their defaults.
-  void group(const char* heading) const;
+  void group(const char* heading) const {
+    command.option_defaults()->group(heading)->always_capture_default();
+  }
   // By the type of the value: a flag (bool), a file or folder (path), a number or a text.
   // "--name": an option, "name": a positional argument.
   template <class T>
@@ -52,8 +54,10 @@ struct OptionAdder {
                       const std::string& help) const;
 
   // Options that several commands share.
-  void json(bool& value) const;
-  void assets(std::filesystem::path& folder) const;
+  void json(bool& value) const { (*this)("--json", value, "print one JSON object on stdout"); }
+  void assets(std::filesystem::path& folder) const {
+    (*this)("--assets", folder, "folder with robots and settings; default: beside the program");
+  }
   void scene_step(std::optional<double>& step, std::string& integrator) const;
   // The model, described by `model`, its state, and which of its effects to ignore.
   void robot(RobotOptions& options, const char* model) const;

@@ -76,10 +76,6 @@ void InputOverride::restore(const OperatorFrame& frame, double t, double h) {
   invalidate_targets(t);
 }
 
-void InputOverride::end_restored() {
-  if (std::exchange(is_restored_, false)) active_ = false;
-}
-
 std::vector<double> InputOverride::own_q(double t, double toward) const {
   const OperatorSample sample = own_->sample(t, toward);
   std::vector<double> q;
@@ -108,12 +104,6 @@ void InputOverride::move_towards(const std::vector<double>& goal, double h) {
         std::abs(change) <= max_change ? goal[j] : before + std::copysign(max_change, change);
     target_.qd[j] = (target_.q[j] - before) / h;
   }
-}
-
-// A target robot caches its state of the last time that was evaluated. The cached state at t is
-// wrong after the motion was replaced; evaluating another time removes it.
-void InputOverride::invalidate_targets(double t) {
-  for (const std::size_t coupling : coupled_) couplings_->target(coupling, t - 1);
 }
 
 std::optional<DeviceStep> InputOverride::before_step(const State<double>& x, double t, double h) {
@@ -176,10 +166,6 @@ void InputOverride::replay_step(const std::optional<DeviceStep>& motion) {
     target_.qd[j] = OperatorMapping{}.robot_rate(motion->sample, j);
   }
   target_.gripper_closed = motion->sample.button;
-}
-
-void InputOverride::after_step(const Simulation& simulation, double h, bool finite) noexcept {
-  if (loop_ && is_live_ && active_) loop_->after_step(simulation, h, finite);
 }
 
 std::optional<OperatorFrame> InputOverride::frame(double t) const {

@@ -37,7 +37,9 @@ class InputOverride {
   // InputError: the device's mapping cannot move these joints.
   std::optional<DeviceStep> before_step(const State<double>& x, double t, double h);
   void replay_step(const std::optional<DeviceStep>& motion);
-  void after_step(const Simulation& simulation, double h, bool finite) noexcept;
+  void after_step(const Simulation& simulation, double h, bool finite) noexcept {
+    if (loop_ && is_live_ && active_) loop_->after_step(simulation, h, finite);
+  }
 
   std::optional<OperatorFrame> frame(double t) const;
   // Bodies of the driven joints and the joints' targets; empty: no coupling can be driven.
@@ -55,8 +57,14 @@ class InputOverride {
   std::vector<double> own_q(double t, double toward) const;
   void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
-  void invalidate_targets(double t);
-  void end_restored();
+  // A target robot caches its state of the last time that was evaluated. The cached state at t is
+  // wrong after the motion was replaced; evaluating another time removes it.
+  void invalidate_targets(double t) {
+    for (const std::size_t coupling : coupled_) couplings_->target(coupling, t - 1);
+  }
+  void end_restored() {
+    if (std::exchange(is_restored_, false)) active_ = false;
+  }
 
   SceneModel* scene_;
   OperatorInput& input_;

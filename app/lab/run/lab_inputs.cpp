@@ -41,10 +41,6 @@ void OperatorInput::choose(Source source, const std::string& spec) {
   ++revision_;
 }
 
-void OperatorInput::renew() {
-  if (source_ != Source::device) choose(source_);
-}
-
 void OperatorInput::restart() {
   gripper_ = false;
   renew();

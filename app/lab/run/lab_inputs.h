@@ -38,7 +38,9 @@ class OperatorInput {
 
   // As after choose() with the same source: a virtual device at rest and without force. A physical
   // one stays as it is. restart() also opens the gripper.
-  void renew();
+  void renew() {
+    if (source_ != Source::device) choose(source_);
+  }
   void restart();
 
   Source source() const { return source_; }

@@ -88,10 +88,6 @@ LabScene::LabScene(RecordingHeader header, FileRoots roots) : roots_(std::move(r
   if (roots_) roots_->push_back(files_->folder());
 }
 
-bool LabScene::is_scene() const {
-  return files_->header().run.robot.model.extension() == ".toml";
-}
-
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
   RunSettings changed = files_->header().run;
   DiagnosticList faults;

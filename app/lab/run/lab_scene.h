@@ -56,7 +56,7 @@ class LabScene {
 
   // The changed scene as TOML; empty for a robot alone. Throws InputError.
   std::string text(const std::vector<Change>& changes = {}) const;
-  bool is_scene() const;
+  bool is_scene() const { return files_->header().run.robot.model.extension() == ".toml"; }
   // For a recording of the run with these changes. An operator log
   // (coupling/device/device_motion.h) becomes one of its files and the target of the given
   // couplings. Throws InputError.

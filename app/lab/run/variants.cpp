@@ -75,10 +75,6 @@ void LabVariants::add_to(LabFrame& frame, LabNames& names) {
   }
 }
 
-std::vector<std::string> LabVariants::take_warnings() {
-  return std::exchange(warnings_, {});
-}
-
 VariantSet parse_variants(const std::string& text) {
   const std::size_t equals = text.find('=');
   VariantSet variants;

@@ -50,7 +50,7 @@ class LabVariants {
   // Adds their frames to one of the run; new rows are added to `names`.
   void add_to(LabFrame& frame, LabNames& names);
   // A line for each variant that has stopped since the last call.
-  std::vector<std::string> take_warnings();
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
   struct Variant {

@@ -215,18 +215,6 @@ void Inbox::push(LabCommand command) {
   });
 }
 
-void Inbox::push(BuildResult built) {
-  locked([&] { contents_.built.push_back(std::move(built)); });
-}
-
-void Inbox::push_refused(long number) {
-  locked([&] { contents_.refused = number; });
-}
-
-void Inbox::push(TriedFixes tried) {
-  locked([&] { contents_.tried = std::move(tried); });
-}
-
 void Inbox::note(const std::string& level, const std::string& text) {
   locked([&] {
     if (notes_.size() == kMaxNotes) notes_.pop_front();

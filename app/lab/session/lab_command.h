@@ -84,9 +84,16 @@ class Inbox {
 
   // From any thread. Drops commands beyond 4,096 waiting ones, and the oldest of too many notes.
   void push(LabCommand command);
-  void push(BuildResult built);
-  void push_refused(long number);  // pending changes up to this number are refused
-  void push(TriedFixes tried);
+  void push(BuildResult built) {
+    locked([&] { contents_.built.push_back(std::move(built)); });
+  }
+  // Pending changes up to this number are refused.
+  void push_refused(long number) {
+    locked([&] { contents_.refused = number; });
+  }
+  void push(TriedFixes tried) {
+    locked([&] { contents_.tried = std::move(tried); });
+  }
   void note(const std::string& level, const std::string& text);
   bool stop();  // false: already stopped
 
