@@ -23,10 +23,6 @@ void copy_into(Image& image, const Image& part, int left, int top) {
     std::copy_n(part.pixel(0, y), 4 * part.width, image.pixel(left, top + y));
 }
 
-bool same_legend(const std::vector<LegendLine>& a, const std::vector<LegendLine>& b) {
-  return std::ranges::equal(a, b, {}, &LegendLine::words, &LegendLine::words);
-}
-
 // With the forces of the semi-implicit step that begins at the instant.
 Inspection inspect(FilmedRun& run, const RunInstant& instant) {
   SimulateInput& input = run.plan.input;
@@ -97,7 +93,8 @@ class Rendering::View {
       add_wrenches(view_, inspect(run_, instant));
     DrawList& list = view_.list;
     legend_ = list.legend;
-    if (before && same_legend(*before, legend_)) list.legend.clear();
+    if (before && std::ranges::equal(*before, legend_, {}, &LegendLine::words, &LegendLine::words))
+      list.legend.clear();
     list.camera = camera_;
     if (orbit_ != 0) {
       const Eigen::AngleAxisd turn(orbit_ * static_cast<double>(picture), Vector3::UnitZ());

@@ -13,10 +13,6 @@
 namespace twinarm {
 namespace {
 
-std::vector<double> as_list(const Eigen::VectorXd& v) {
-  return {v.data(), v.data() + v.size()};
-}
-
 // Zero velocities, prescribed motions included.
 State<double> at_rest(State<double> x) {
   std::ranges::fill(x.qd, 0);
@@ -123,7 +119,7 @@ class CrbaRneaReference {
 
   Result run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
              const std::vector<Force<double>>& f_ext) {
-    rnea(model, x, as_list(qdd), f_ext, w_);
+    rnea(model, x, {qdd.begin(), qdd.end()}, f_ext, w_);
     Result result{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
     for (Eigen::Index k = 0; k < qdd.size(); ++k)
       result.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];

@@ -11,9 +11,6 @@ namespace {
 Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
-std::vector<double> as_list(const Eigen::VectorXd& values) {
-  return {values.data(), values.data() + values.size()};
-}
 
 // Joint forces that balance damping and Coulomb friction; zero at rest.
 std::vector<double> friction_forces(const Model<double>& model, const State<double>& x) {
@@ -59,7 +56,8 @@ void inverse(const RobotInput& input, const std::vector<Force<double>>& f_ext, c
   const Model<double>& model = input.model;
   const State<double>& x = input.state.x;
   Workspace<double> w(model);
-  rnea(model, x, as_list(P * input.state.qdd), f_ext, w);
+  const Eigen::VectorXd qdd = P * input.state.qdd;
+  rnea(model, x, {qdd.begin(), qdd.end()}, f_ext, w);
   const std::vector<double> friction = friction_forces(model, x);
   d.tau_inverse = P.transpose() * (as_vector(w.tau) + as_vector(friction));
   d.base_force = k.R_WB[1] * to_eigen(w.f[1].f);

@@ -10,10 +10,6 @@
 namespace twinarm {
 namespace {
 
-bool is_half_space(const Shape& shape) {
-  return std::holds_alternative<HalfSpace>(shape);
-}
-
 bool is_finite(const Pose& X) {
   return X.R.allFinite() && X.p.allFinite();
 }
@@ -64,7 +60,7 @@ int CollisionWorld::add(Geometry geometry) {
     geometries_.pop_back();
     throw;
   }
-  if (is_half_space(geometries_.back().shape)) {
+  if (std::holds_alternative<HalfSpace>(geometries_.back().shape)) {
     half_spaces_.push_back(id);
   } else {
     bounded_.push_back(id);

@@ -49,10 +49,6 @@ void add_starts_around_kinks(const PosedShape& a, const PosedShape& b, Starts& s
   }
 }
 
-Matrix3 rotated(const Matrix3& R, const Matrix3& Q) {
-  return R * Q * R.transpose();
-}
-
 }  // namespace
 
 // Edges of a polytope share vertices; a vertex has Q = 0.
@@ -67,7 +63,8 @@ void CurvedAxis::pose_features(const PosedShape& body, const PosedShape& other, 
   vertices_.clear();
   for (const BoundaryFeatures::Quadric& quadric : boundary.quadrics) {
     const Vector3 p = vertices_.emplace_back(body.X_WG * quadric.p);
-    const Matrix3 Q = core.exists ? quadric.Q : rotated(body.X_WG.R, quadric.Q);
+    const Matrix3& R = body.X_WG.R;
+    const Matrix3 Q = core.exists ? quadric.Q : Matrix3(R * quadric.Q * R.transpose());
     const Vector3 half = Q.diagonal().cwiseMax(0).cwiseSqrt();
     if (range.intersects(Aabb(p - half, p + half))) posed.quadrics.push_back({p - origin_, Q});
   }

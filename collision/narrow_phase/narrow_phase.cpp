@@ -24,10 +24,6 @@ bool is_half_space(const PosedShape& body) {
   return std::holds_alternative<HalfSpace>(body.solid.shape);
 }
 
-double radii_of(const PosedShape& a, const PosedShape& b) {
-  return a.solid.core.radius + b.solid.core.radius;
-}
-
 }  // namespace
 
 bool is_supported(const Shape& a, const Shape& b) {
@@ -45,7 +41,7 @@ bool NarrowPhase::nearest(const PosedShape& a, const PosedShape& b, double margi
     return pair.axis.overlap > -margin;
   }
   if (!a.solid.core.exists || !b.solid.core.exists) return curved_.nearest(a, b, margin, pair);
-  const double radii = radii_of(a, b);
+  const double radii = a.solid.core.radius + b.solid.core.radius;
   const CoreDistance cores = core_distance(a, b, margin + radii);
   const bool apart = cores.distance > kMinGjkDistance;
   PenetrationDirection best;  // of the cores, until the end

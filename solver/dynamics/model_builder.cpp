@@ -16,10 +16,6 @@ Mat3<double> to_mat3(const Matrix3& R) {
   return {from_eigen(R.row(0)), from_eigen(R.row(1)), from_eigen(R.row(2))};
 }
 // Pluecker transform B_X_A from the pose of B in A.
-Transform<double> to_transform(const Pose& X_AB) {
-  return {to_mat3(X_AB.R.transpose()), from_eigen(X_AB.p)};
-}
-
 bool is_direction(const Vector3& axis) {
   return axis.norm() > 0 && axis.allFinite();
 }
@@ -189,7 +185,8 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
   model.iq.push_back(model.nq);
   model.iv.push_back(model.nv);
   model.ip.push_back(model.np);
-  model.Xtree.push_back(to_transform(X_PbPl * body.X_PJ * X_LB));
+  const Pose Xtree = X_PbPl * body.X_PJ * X_LB;
+  model.Xtree.push_back({to_mat3(Xtree.R.transpose()), from_eigen(Xtree.p)});
   model.I.push_back(about_origin(body.inertia, R_LB.back().transpose()));
   model.R_BL.push_back(to_mat3(R_LB.back().transpose()));
   visit_joint<double>(body.type, 0, [&](auto joint) {

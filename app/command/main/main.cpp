@@ -74,13 +74,6 @@ int check_output(int code, bool as_json) {
   }
 }
 
-// An error of printing may be the cause: then it is reported instead.
-int report_internal(const std::exception& error, bool as_json) {
-  const int code = check_output(kInternal, as_json);
-  if (code == kInternal) print_error("twinarm: internal error: {}\n", error.what());
-  return code;
-}
-
 // --help and --version.
 int print_help(const CLI::App& app, const CLI::ParseError& parsed, bool as_json) {
   std::ostringstream text;
@@ -209,7 +202,10 @@ int run_program(int argc, char** argv) {
                   as_json);
   } catch (const Interrupted&) {  // told below
   } catch (const std::exception& error) {
-    return report_internal(error, as_json);
+    // An error of printing may be the cause: then it is reported instead.
+    const int code = check_output(kInternal, as_json);
+    if (code == kInternal) print_error("twinarm: internal error: {}\n", error.what());
+    return code;
   }
   print_error("twinarm: interrupted; no partial files were left\n");
   return kInterrupted;

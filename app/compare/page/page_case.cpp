@@ -29,11 +29,6 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
 }
 
 // HTML with formulas in paragraphs.
-std::string statement_html(const AnalyticCase& c) {
-  return "<div class=statement>" + replace_all(c.statement, "<p>", "<p class=formula>") +
-         "</div>\n";
-}
-
 std::string integration_words(const Integration& integration) {
   if (integration.integrator == Integrator::dopri5)
     return fmt::format("dopri5, tolerance {:g}", integration.tolerance);
@@ -150,7 +145,8 @@ std::string case_section(const CompareRow& row, const std::vector<Integration>& 
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
                   escaped(c.name), yes_no(pass, "pass", "fail"), in_unicode(c.reference));
   const TrajectoryCase* motion = c.trajectory.get();
-  html += statement_html(c) + facts_of_case(row, motion) + integrations_table(row);
+  html += "<div class=statement>" + replace_all(c.statement, "<p>", "<p class=formula>") +
+          "</div>\n" + facts_of_case(row, motion) + integrations_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   if (!motion) html += contact_figures(row);
   return html + command_of(row, integrations) + link_to_code(c.name) + "</section>\n";

@@ -59,10 +59,6 @@ std::string unit_of(const std::string& reading) {
   const std::string unit = reading.substr(open + 1, close - open - 1);
   return replace_all(replace_all(unit, "s2", "s²"), "m2", "m²");
 }
-std::string without_unit(const std::string& reading) {
-  return reading.substr(0, reading.find(" ["));
-}
-
 double largest(const std::vector<double>& values) {
   const auto [low, high] = finite_range({&values});
   return low > high ? 0 : std::max(std::abs(low), std::abs(high));
@@ -103,7 +99,7 @@ std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
     lines +=
         fmt::format("{}{} with lines lw 1.8 dt {} lc '{}' title {}", lines.empty() ? "plot " : ", ",
                     gnuplot.curve(curves.t, curves.values[i], kStretches), style.dash, style.colour,
-                    in_quotes(without_unit(curves.names[i])));
+                    in_quotes(curves.names[i].substr(0, curves.names[i].find(" ["))));
     const std::size_t known = std::min(curves.exact_t.size(), curves.exact[i].size());
     if (known > 0)
       points += fmt::format(

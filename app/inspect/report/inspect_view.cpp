@@ -10,15 +10,11 @@
 namespace twinarm {
 namespace {
 
-std::vector<std::string> names_of_bodies(const Model<double>& model) {
-  return {model.body_name.begin() + 1, model.body_name.end()};
-}
-
 // The body's index; 0 and a diagnostic where there is none.
 std::size_t index_of_body(const std::string& option, const std::string& name,
                           const std::string& others, const Model<double>& model,
                           DiagnosticList& faults) {
-  const std::vector<std::string> names = names_of_bodies(model);
+  const std::vector<std::string> names(model.body_name.begin() + 1, model.body_name.end());
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
   faults.add({"", 0, option, "there is no body '" + name + "'",

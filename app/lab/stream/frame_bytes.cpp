@@ -45,10 +45,6 @@ bool is_near(const Vector3& v) {
 constexpr double kSpacing = 1.25;  // offset of variants over the width of the scene
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double energy_of(const Snapshot& snapshot) {
-  return snapshot.kinetic + snapshot.potential + snapshot.elastic;
-}
-
 // Residual of the energy balance; NaN without a balance.
 double residual_of(const LabFrame& frame, const std::vector<std::string>& rows) {
   const RecordedFrame& recorded = frame.recorded;
@@ -209,7 +205,7 @@ void VariantViews::values(const LabFrame& frame, const Snapshot& run,
     const LabFrame* own = variant == 0 ? &frame : other ? other->frame.frame.get() : nullptr;
     for (const NamedJoint& joint : joints_)
       values[at++] = snapshot ? coordinates_of(joint, snapshot->x).front() : kNone;
-    values[at++] = snapshot ? energy_of(*snapshot) : kNone;
+    values[at++] = snapshot ? snapshot->kinetic + snapshot->potential + snapshot->elastic : kNone;
     values[at++] = own ? residual_of(*own, rows) : kNone;
   }
 }

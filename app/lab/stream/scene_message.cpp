@@ -86,14 +86,11 @@ std::string mesh_bytes(const DrawMesh& mesh) {
   return bytes;
 }
 
-// 128 bits in hexadecimal.
-std::string content_name(const std::string& bytes) {
-  return fmt::format("{:016x}{:016x}", hash_of(bytes), hash_of(bytes, 0x9ae16a3b2f90404fu));
-}
-
+// Returns its name: a hash of 128 bits in hexadecimal.
 std::string keep(std::map<std::string, std::shared_ptr<const std::string>>& files,
                  std::string bytes) {
-  std::string name = content_name(bytes);
+  std::string name =
+      fmt::format("{:016x}{:016x}", hash_of(bytes), hash_of(bytes, 0x9ae16a3b2f90404fu));
   files.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
   return name;
 }

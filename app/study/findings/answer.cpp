@@ -12,10 +12,6 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-double worst(const Pair& p) {
-  return std::max(p[0], p[1]);
-}
-
 std::string reproduction(const RunResult& e3, const RunResult& e4) {
   const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));
   return fmt::format(
@@ -48,7 +44,7 @@ std::string operators(const std::vector<Ensemble>& ensembles) {
 
 // Larger of the two maxima, linear against torsional.
 const char* verdict(const Pair& linear, const Pair& torsional) {
-  const double ratio = worst(torsional) / worst(linear);
+  const double ratio = std::ranges::max(torsional) / std::ranges::max(linear);
   return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
 }
 
@@ -96,7 +92,7 @@ std::string reason(const std::vector<CouplingOrder>& orders) {
 }
 
 std::string damper(const RunResult& printed, const RunResult& torsional) {
-  const double ratio = worst(printed.max_deg) / worst(torsional.max_deg);
+  const double ratio = std::ranges::max(printed.max_deg) / std::ranges::max(torsional.max_deg);
   return fmt::format(
       "The published torsional damper uses an unsigned angle: {}. With optimal gains at 60 Hz {} "
       "deg, mean {}; with a signed damper {} deg, mean {}.",

@@ -49,11 +49,6 @@ std::string rate_axis(const std::set<double>& rates) {
                      *rates.rbegin() * 1.12, tics);
 }
 
-// Of "group/law/rate".
-std::string law_of(const std::string& name) {
-  return split(name, '/')[1];
-}
-
 }  // namespace
 
 void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
@@ -61,7 +56,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   std::set<double> rates;
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("trial/")) {
-      by_law[law_of(run.spec.name)].push_back(&run);
+      by_law[split(run.spec.name, '/')[1]].push_back(&run);  // of "group/law/rate"
       rates.insert(run.spec.rate);
     }
   std::string script =
