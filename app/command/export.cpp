@@ -180,8 +180,8 @@ void add_options(const OptionAdder& add, ExportOptions& options) {
 int export_page(const ExportOptions& options) {
   const std::string file = options.page.string();
   if (options.csv)
-    throw InputError({{"", 0, "--csv", "cannot be combined with a page", "give one of them",
-                       "option.conflict"}});
+    throw InputError("--csv", "cannot be combined with a page", "give one of them",
+                     "option.conflict");
   const ReplayPage page = replay_page(options.recording);
   write_whole_file(options.page, page.html);
   if (!options.json) {
@@ -199,8 +199,8 @@ int export_page(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (!options.page.empty()) return export_page(options);
   if (options.json == options.csv)
-    throw InputError({{"", 0, "--csv, --json", options.json ? "both are given" : "neither is given",
-                       "give one of them, or the name of a page", "option.conflict"}});
+    throw InputError("--csv, --json", options.json ? "both are given" : "neither is given",
+                     "give one of them, or the name of a page", "option.conflict");
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
   options.json ? print_recording_json(recording) : print_recording_csv(recording);

@@ -105,9 +105,9 @@ std::string help_of(const CLI::App& program, const std::vector<std::string>& wor
       if (std::string found = glossary_entries(fmt::format("{}", fmt::join(words, " ")), names);
           !found.empty())
         return found;
-    throw InputError(
-        {{"", 0, "help", fmt::format("there is no command or term '{}'", word),
-          names.empty() ? "leave it out" : name_remedy(word, names, "words"), "command.unknown"}});
+    throw InputError("help", fmt::format("there is no command or term '{}'", word),
+                     names.empty() ? "leave it out" : name_remedy(word, names, "words"),
+                     "command.unknown");
   }
   return command->get_formatter()->make_help(command, path, CLI::AppFormatMode::Normal);
 }

@@ -121,10 +121,10 @@ std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& block
   for (int b = is_part(options) ? options.job : 0; b < blocks.count(); b += step)
     wanted.push_back(b);
   if (wanted.empty())
-    throw InputError({{"", 0, "--jobs",
-                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} jobs",
-                                   blocks.count(), options.jobs),
-                       "give fewer --jobs", "map.part"}});
+    throw InputError("--jobs",
+                     fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} jobs",
+                                 blocks.count(), options.jobs),
+                     "give fewer --jobs", "map.part");
   return wanted;
 }
 

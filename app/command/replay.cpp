@@ -92,8 +92,7 @@ int run_replay(const ReplayOptions& options) {
   std::vector<Change> changes;
   for (const std::string& text : options.changes) changes.push_back(parse_change(text));
   if (!options.plot.empty() && changes.empty())
-    throw InputError(
-        {{"", 0, "--plot", "there is no branch to draw", "give --set too", "option.conflict"}});
+    throw InputError("--plot", "there is no branch to draw", "give --set too", "option.conflict");
   if (!options.plot.empty()) require_gnuplot();
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);

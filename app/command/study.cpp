@@ -78,11 +78,11 @@ bool is_device(const StudyOptions& options) {
 std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
                                                 const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
-    throw InputError(
-        {{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv", "option.missing"}});
+    throw InputError("--device trace", "no trace is given", "add --trace FILE.csv",
+                     "option.missing");
   if (!options.device.empty() && options.device != "trace" && !options.trace.empty())
-    throw InputError({{"", 0, "--trace", "cannot be combined with --device " + options.device,
-                       "leave --device out, or give --device trace", "option.conflict"}});
+    throw InputError("--trace", "cannot be combined with --device " + options.device,
+                     "leave --device out, or give --device trace", "option.conflict");
   if (is_device(options)) return record_device(options, settings);
   if (!options.trace.empty()) return recorded_motion(options.trace);
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),

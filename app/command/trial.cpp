@@ -164,8 +164,8 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
       print_error("Press Enter when you are ready. ");
       if (!wait_for_enter()) {
         print_error("\n");
-        throw InputError({{"", 0, "trial", "cannot wait for Enter: there is no terminal",
-                           "run it in a terminal, or give --yes", "trial.no-terminal"}});
+        throw InputError("trial", "cannot wait for Enter: there is no terminal",
+                         "run it in a terminal, or give --yes", "trial.no-terminal");
       }
     }
     count_down();

@@ -43,8 +43,8 @@ void add_options(const OptionAdder& add, ZwidthOptions& options) {
 
 int run_zwidth(const ZwidthOptions& options) {
   if (options.json && options.csv)
-    throw InputError({{"", 0, "--csv", "cannot be combined with --json", "leave one of them out",
-                       "option.conflict"}});
+    throw InputError("--csv", "cannot be combined with --json", "leave one of them out",
+                     "option.conflict");
   if (!options.svg.empty() || !options.png.empty()) require_gnuplot();
   const SampledDevice& device = options.device;
   const std::filesystem::path assets = find_assets();

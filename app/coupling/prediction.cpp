@@ -120,8 +120,8 @@ VectorXd shares_of_move(const PredictTask& task, const Predicted& found) {
   for (const auto& [name, part] : task.along) {
     const auto row = std::ranges::find(found.rows, name);
     if (row == found.rows.end())
-      faults.add({"", 0, "--along", "there is no joint '" + name + "'",
-                  name_remedy(name, found.rows, "joints"), "option.unknown-name"});
+      faults.add("--along", "there is no joint '" + name + "'",
+                 name_remedy(name, found.rows, "joints"), "option.unknown-name");
     else
       parts[row - found.rows.begin()] = part;
   }

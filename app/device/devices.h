@@ -57,7 +57,7 @@ std::shared_ptr<const OperatorMotion> scripted_motion(const std::string& spec);
 
 [[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& problem,
                                      const std::string& fix) {
-  throw InputError({{"", 0, "--device " + spec, problem, fix, "device.spec"}});
+  throw InputError("--device " + spec, problem, fix, "device.spec");
 }
 
 template <class Number>

@@ -42,9 +42,8 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& parameters, Vr
   try {
     peer_.emplace(address_.host, address_.port);
   } catch (const std::runtime_error& error) {
-    throw InputError(
-        {{"", 0, "--device vrpn:" + name_, fmt::format("unknown host: {}", error.what()),
-          "give its name or address: vrpn:NAME@HOST[:PORT]", "device.host-unknown"}});
+    throw InputError("--device vrpn:" + name_, fmt::format("unknown host: {}", error.what()),
+                     "give its name or address: vrpn:NAME@HOST[:PORT]", "device.host-unknown");
   }
   thread_ = std::thread([this] { run(); });
   std::unique_lock lock(mutex_);
@@ -52,8 +51,8 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& parameters, Vr
   if (!first_trouble_) return;
   lock.unlock();
   thread_.join();
-  throw InputError({{"", 0, "--device vrpn:" + name_, first_trouble_->problem, first_trouble_->fix,
-                     "device.no-answer"}});
+  throw InputError("--device vrpn:" + name_, first_trouble_->problem, first_trouble_->fix,
+                   "device.no-answer");
 }
 
 VrpnDevice::Link::~Link() {

@@ -19,7 +19,7 @@ Vector3 towards_eye(const CameraWish& wish) {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& problem,
                          const std::string& fix) {
-  throw InputError({{"", 0, "--camera", "'" + text + "' " + problem, fix, "option.form"}});
+  throw InputError("--camera", "'" + text + "' " + problem, fix, "option.form");
 }
 
 CameraWish parse_orbit(const std::string& text) {

@@ -95,8 +95,8 @@ std::vector<std::string> parse_names(const std::string& text, const std::string&
     if (word == "none" || word.empty()) continue;
     if (word == "all") return known;
     if (std::ranges::find(known, word) == known.end())
-      faults.add({"", 0, option, "there is no " + noun + " '" + word + "'",
-                  name_remedy(word, known, noun + "s"), "option.choice"});
+      faults.add(option, "there is no " + noun + " '" + word + "'",
+                 name_remedy(word, known, noun + "s"), "option.choice");
     chosen.push_back(word);
   }
   faults.check();

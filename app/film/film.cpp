@@ -139,9 +139,8 @@ std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& file, const FilmF
 std::filesystem::path find_ffmpeg(const char* option) {
   const std::filesystem::path program = find_program("ffmpeg");
   if (!program.empty()) return program;
-  throw InputError(
-      {{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
-        "install it (apt-get install ffmpeg), or use --frames DIR", "program.missing"}});
+  throw InputError(option, "needs the program ffmpeg, which is not on the PATH",
+                   "install it (apt-get install ffmpeg), or use --frames DIR", "program.missing");
 }
 
 }  // namespace twinarm

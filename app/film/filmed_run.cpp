@@ -29,8 +29,8 @@ void take_forces_of_first_step(FilmedRun& run, const RunInstant& first) {
 
 std::vector<double> picture_times(double from, double to, double interval) {
   if ((to - from) / interval > kMaxPictures)
-    throw InputError({{"", 0, "--slow-motion", "the film would have more than 100000 pictures",
-                       "shorten it by --from and --to", "film.too-long"}});
+    throw InputError("--slow-motion", "the film would have more than 100000 pictures",
+                     "shorten it by --from and --to", "film.too-long");
   std::vector<double> times;
   const auto count = static_cast<long>(std::floor((to - from) / interval + 1e-6));
   for (long i = 0; i <= count; ++i) times.push_back(from + static_cast<double>(i) * interval);
@@ -39,9 +39,8 @@ std::vector<double> picture_times(double from, double to, double interval) {
 
 void check_piece(double from, double to) {
   if (!(from >= 0 && to > from))
-    throw InputError(
-        {{"", 0, "--from", fmt::format("the film goes from {:g} s to {:g} s", from, to),
-          "give 0 <= --from < --to", "option.order"}});
+    throw InputError("--from", fmt::format("the film goes from {:g} s to {:g} s", from, to),
+                     "give 0 <= --from < --to", "option.order");
 }
 
 // Reports both options.
@@ -118,9 +117,9 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   print_warnings(run.plan.input.robot.warnings, false);
   const SceneModel* scene = run.plan.input.scene.get();
   if (const auto last = scene ? scene->description.duration : std::nullopt; last && times.at > last)
-    throw InputError({{"", 0, "--at",
-                       fmt::format("{:g} s is beyond the scene's end at {:g} s", *times.at, *last),
-                       "give an earlier time, or a longer 'duration' in the scene", "film.time"}});
+    throw InputError("--at",
+                     fmt::format("{:g} s is beyond the scene's end at {:g} s", *times.at, *last),
+                     "give an earlier time, or a longer 'duration' in the scene", "film.time");
   if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
   plan.duration = end > 0 ? end : plan.step;  // one step for the forces at the start
   const double around = std::max(end / kAround, 0.0), slack = 1e-6 * plan.step;
@@ -150,8 +149,8 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
     print_error("twinarm: the run diverged after t = {:g} s: {}\n", result.end,
                 result.post_mortem->reason);
   if (run.shown.empty())
-    throw InputError({{"", 0, "--at", "the run stopped before that time",
-                       fmt::format("give one up to {:g} s", result.end), "film.time"}});
+    throw InputError("--at", "the run stopped before that time",
+                     fmt::format("give one up to {:g} s", result.end), "film.time");
   if (first) take_forces_of_first_step(run, *first);
   return run;
 }
@@ -189,10 +188,10 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
   for (const auto& [t, option] :
        {std::pair{times.at, "--at"}, {times.from, "--from"}, {times.to, "--to"}})
     if (t && !(*t >= earliest - 1e-9 && *t <= last + 1e-9))
-      faults.add({"", 0, option,
-                  fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
-                              earliest, last),
-                  "give a time within these", "film.time"});
+      faults.add(option,
+                 fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
+                             earliest, last),
+                 "give a time within these", "film.time");
   faults.check();
   times.waits = true;
   if (!times.is_film && !times.at) times.at = last;

@@ -157,9 +157,9 @@ std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
     const int iy = index(text.substr(comma + 1), job.ny());
     if (ix >= 0 && iy >= 0) return {ix, iy};
   }
-  throw InputError(
-      {{"", 0, "--cell", "'" + text + "' is not a cell of this map",
-        fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1), "map.cell"}});
+  throw InputError("--cell", "'" + text + "' is not a cell of this map",
+                   fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1),
+                   "map.cell");
 }
 
 OpenedCell open_cell(const MapJob& job, int ix, int iy, const std::filesystem::path& recording) {

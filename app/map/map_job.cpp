@@ -75,13 +75,12 @@ void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y)
   const double steps = plan.run.duration / plan.run.step;
   if (plan.run.is_adaptive() || (steps >= 1 && steps <= kMaxSteps)) return;
   throw InputError(
-      {{"", 0,
-        fmt::format("--x {} = {}, --y {} = {}", job.x.path, number_text(x), job.y.path,
-                    number_text(y)),
-        fmt::format("a run of {} s in steps of {} s {}", short_number_text(plan.run.duration),
-                    short_number_text(plan.run.step),
-                    steps < 1 ? "has no whole step" : "has more than 1e8 steps"),
-        "choose other steps, or --duration", "map.steps"}});
+      fmt::format("--x {} = {}, --y {} = {}", job.x.path, number_text(x), job.y.path,
+                  number_text(y)),
+      fmt::format("a run of {} s in steps of {} s {}", short_number_text(plan.run.duration),
+                  short_number_text(plan.run.step),
+                  steps < 1 ? "has no whole step" : "has more than 1e8 steps"),
+      "choose other steps, or --duration", "map.steps");
 }
 
 // Diagnostics of the scene itself hide those of the axes.
@@ -138,7 +137,7 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
   bool good = true;
   const auto fault = [&](const std::string& problem, const std::string& fix,
                          std::string_view code) {
-    faults.add({"", 0, option, problem, fix, code});
+    faults.add(option, problem, fix, code);
     good = false;
   };
   const std::vector<std::string> parts = split(text, ':');

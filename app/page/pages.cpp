@@ -20,8 +20,8 @@ namespace {
 // Throws InputError if the program was built without templates; `instead`: an alternative.
 void require_form(std::string_view form, std::string_view missing, const std::string& instead) {
   if (form.empty())
-    throw InputError({{"", 0, "page", "there is no page to fill in",
-                       std::string(missing) + "; " + instead, "page.missing"}});
+    throw InputError("page", "there is no page to fill in", std::string(missing) + "; " + instead,
+                     "page.missing");
 }
 
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,

@@ -30,8 +30,8 @@ const char* const kFigureStyle =
 std::filesystem::path require_gnuplot() {
   const std::filesystem::path program = find_program("gnuplot");
   if (!program.empty()) return program;
-  throw InputError({{"", 0, "gnuplot", "the program is not in PATH; it draws the figures",
-                     "install gnuplot-nox (scripts/setup does)", "program.missing"}});
+  throw InputError("gnuplot", "the program is not in PATH; it draws the figures",
+                   "install gnuplot-nox (scripts/setup does)", "program.missing");
 }
 
 std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves) {

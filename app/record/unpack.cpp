@@ -89,14 +89,14 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
     if (changes[i].path == "gravity")
       options.robot.gravity = changes[i].value;
     else if (std::ranges::find(kept, changes[i].path) != kept.end())
-      faults.add({"", 0, "--set " + changes[i].path,
-                  "a branch keeps step, integrator, duration and contact model of its recording",
-                  "run `twinarm simulate` with another " + changes[i].path, "change.method"});
+      faults.add("--set " + changes[i].path,
+                 "a branch keeps step, integrator, duration and contact model of its recording",
+                 "run `twinarm simulate` with another " + changes[i].path, "change.method");
     else if (is_scene)
       of_scene.emplace_back(changes[i], line_of_change(i));
     else
-      faults.add({"", 0, "--set " + changes[i].path, "only gravity can be changed for a URDF",
-                  "write --set gravity=x,y,z, or record a scene", "change.robot"});
+      faults.add("--set " + changes[i].path, "only gravity can be changed for a URDF",
+                 "write --set gravity=x,y,z, or record a scene", "change.robot");
   faults.check();
   options.change_scene = [this, of_scene](Value& tree, DiagnosticList& found) {
     update_names(tree);
@@ -151,11 +151,11 @@ void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
   if (given.state.empty() && given.gravity.empty() && given.changes.empty() && !given.floating &&
       given.friction && given.armature && !given.strict && !given.missing.any())
     return;
-  faults.add({"", 0,
-              "--state, --gravity, --floating, --no-friction, --no-armature, --strict, --density, "
-              "--min-mass, --set",
-              "a recording has its own state and model", "leave them out; choose by --at",
-              "option.conflict"});
+  faults.add(
+      "--state, --gravity, --floating, --no-friction, --no-armature, --strict, --density, "
+      "--min-mass, --set",
+      "a recording has its own state and model", "leave them out; choose by --at",
+      "option.conflict");
 }
 
 std::string memory_at(const Recording& recording, std::size_t n, const UnpackedRun& files) {
@@ -174,9 +174,9 @@ std::string memory_at(const Recording& recording, std::size_t n, const UnpackedR
   const RunStart start{recording.frame(recording.keyframe(n)).memory, frame.step};
   run_plan(prepared.input, prepared.run, watch, &start);
   if (memory.empty())
-    throw InputError({{"", 0, fmt::format("step {} of the recording", frame.step),
-                       "this program does not reach it from the keyframe before",
-                       "read it with the twinarm that recorded it", "recording.numbers"}});
+    throw InputError(fmt::format("step {} of the recording", frame.step),
+                     "this program does not reach it from the keyframe before",
+                     "read it with the twinarm that recorded it", "recording.numbers");
   RecordedFrame repeated;
   repeated.memory = memory;
   take_state_from_memory(repeated);
@@ -197,8 +197,8 @@ State<double> recorded_state(RecordedFrame frame, const Model<double>& model) {
     StateArchive memory(state.bytes());
     visit_state(memory, model, x);
   } catch (const std::runtime_error& error) {
-    throw InputError({{"", 0, "a frame of the recording", error.what(),
-                       "the recording is damaged: record it again", "recording.numbers"}});
+    throw InputError("a frame of the recording", error.what(),
+                     "the recording is damaged: record it again", "recording.numbers");
   }
   return x;
 }

@@ -154,8 +154,8 @@ void SteppedRun::take_back(const std::string& bytes) {
     serialize(memory);
     if (!memory.at_end()) throw std::runtime_error("it has more data than this scene");
   } catch (const std::runtime_error& error) {
-    throw InputError({{"", 0, "restart", error.what(),
-                       "do not change joints, contacts, couplings or integrator", kOtherMemory}});
+    throw InputError("restart", error.what(),
+                     "do not change joints, contacts, couplings or integrator", kOtherMemory);
   }
 }
 

@@ -91,8 +91,8 @@ DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, 
     const DeviceState state = device.poll(0);
     if (state.alive) return state;
     if (waited > kPatience)
-      throw InputError({{"", 0, "--device", device.description() + " sends no data",
-                         "switch it on, and end other programs that use it", "device.silent"}});
+      throw InputError("--device", device.description() + " sends no data",
+                       "switch it on, and end other programs that use it", "device.silent");
     if (real_time) clock.wait();
   }
 }

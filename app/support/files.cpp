@@ -146,8 +146,8 @@ void check_stdout() {
   errno = 0;
   if (std::fflush(stdout) == 0 && !was_bad) return;
   const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  throw InputError({{"", 0, "stdout", "cannot be written" + why,
-                     "check whether it is closed or the disk is full", "file.stdout"}});
+  throw InputError("stdout", "cannot be written" + why,
+                   "check whether it is closed or the disk is full", "file.stdout");
 }
 
 }  // namespace twinarm

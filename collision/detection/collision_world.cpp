@@ -72,11 +72,11 @@ int CollisionWorld::add(Geometry geometry) {
 void CollisionWorld::check_pair(int a, int b) const {
   if (!may_collide(a, b) || is_supported(geometry(a).shape, geometry(b).shape)) return;
   throw InputError(
-      {{"", 0, "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
-        "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
-            shape_name(geometry(b).shape),
-        "keep their groups apart with set_group_filter() before adding them, or fix both",
-        "contact.pair"}});
+      "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
+      "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
+          shape_name(geometry(b).shape),
+      "keep their groups apart with set_group_filter() before adding them, or fix both",
+      "contact.pair");
 }
 
 void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {

@@ -25,8 +25,8 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw InputError({{"", 0, "convex hull", problem,
-                     "give at least 4 finite points that do not lie in one plane", "hull.points"}});
+  throw InputError("convex hull", problem,
+                   "give at least 4 finite points that do not lie in one plane", "hull.points");
 }
 
 // Area vector of a polygon (Newell): robust if consecutive edges are nearly parallel.
@@ -223,9 +223,8 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   constexpr std::size_t kMaxFaces = 100000;
   if (loops.size() > kMaxFaces)
     throw InputError(
-        {{"", 0, "convex hull",
-          "it has " + std::to_string(loops.size()) + " faces, must be at most 100,000",
-          "simplify the mesh: some hundred faces are enough for collision", "hull.faces"}});
+        "convex hull", "it has " + std::to_string(loops.size()) + " faces, must be at most 100,000",
+        "simplify the mesh: some hundred faces are enough for collision", "hull.faces");
 
   // Vertices are numbered in the order of the input.
   std::vector<int> index(points.size(), -1);

@@ -27,7 +27,7 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& fix) {
-  throw InputError({{"", 0, "mass properties", problem, fix, "mesh.mass"}});
+  throw InputError("mass properties", problem, fix, "mesh.mass");
 }
 
 Matrix3 outer(const Vector3& v) {

@@ -9,7 +9,7 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse_solid(const std::string& problem, const char* fix) {
-  throw InputError({{"", 0, "mass properties", problem, fix, "shape.mass"}});
+  throw InputError("mass properties", problem, fix, "shape.mass");
 }
 
 std::string positive(const char* name, double value) {

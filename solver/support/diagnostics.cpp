@@ -66,16 +66,16 @@ InputError::~InputError() = default;
 
 void check_step_size(double h) {
   if (h > 0 && std::isfinite(h)) return;
-  throw InputError({{"", 0, "step size", "is " + number_text(h) + " s, must be positive and finite",
-                     "give a step size in seconds, such as 0.001", "run.step"}});
+  throw InputError("step size", "is " + number_text(h) + " s, must be positive and finite",
+                   "give a step size in seconds, such as 0.001", "run.step");
 }
 std::size_t stored_steps(double duration, double h) {
   const double steps = std::ceil(duration / h);
   if (steps <= 1e7) return static_cast<std::size_t>(steps);
-  throw InputError({{"", 0, "step size",
-                     "is " + short_number_text(h) + " s; of " + short_number_text(duration) +
-                         " s at most 1e7 steps can be stored",
-                     "give a longer step or a shorter time", "run.too-many-steps"}});
+  throw InputError("step size",
+                   "is " + short_number_text(h) + " s; of " + short_number_text(duration) +
+                       " s at most 1e7 steps can be stored",
+                   "give a longer step or a shorter time", "run.too-many-steps");
 }
 
 }  // namespace twinarm

@@ -36,6 +36,9 @@ void add_diagnostic(std::vector<Diagnostic>& faults, Diagnostic fault);
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> faults);
+  // Not about a file.
+  InputError(std::string where, std::string problem, std::string fix, std::string_view code)
+      : InputError({{"", 0, std::move(where), std::move(problem), std::move(fix), code}}) {}
   ~InputError() override;
   const std::vector<Diagnostic>& faults() const { return faults_; }
 

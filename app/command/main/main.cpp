@@ -93,11 +93,11 @@ std::pair<const CLI::App*, std::string> find_command(const CLI::App& app, int ar
     for (const CLI::App* below : command->get_subcommands({})) names.push_back(below->get_name());
     if (names.empty()) break;
     if (std::ranges::find(names, word) == names.end())
-      throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", word),
-                         word.ends_with(".toml") || word.ends_with(".urdf")
-                             ? fmt::format("give `twinarm simulate {0}` or `twinarm lab {0}`", word)
-                             : name_remedy(word, names, "commands"),
-                         "command.unknown"}});
+      throw InputError("command line", fmt::format("there is no command '{}'", word),
+                       word.ends_with(".toml") || word.ends_with(".urdf")
+                           ? fmt::format("give `twinarm simulate {0}` or `twinarm lab {0}`", word)
+                           : name_remedy(word, names, "commands"),
+                       "command.unknown");
     command = command->get_subcommand(word);
     path += " " + word;
   }
@@ -132,8 +132,8 @@ InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int ar
     const std::string fix = !now.empty()       ? fmt::format("'{}' is now '{}'", option, now)
                             : !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
                                                : fmt::format("see {} --help", path);
-    return InputError({{"", 0, "command line", fmt::format("{} has no option '{}'", path, option),
-                        fix, "command.line"}});
+    return InputError("command line", fmt::format("{} has no option '{}'", path, option), fix,
+                      "command.line");
   }
   std::string problem = error.what(), fix = fmt::format("see {} --help", path);
   // "Could not convert: --step = abc", "--step: 1 required FLOAT missing"
@@ -150,7 +150,7 @@ InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int ar
                   : fmt::format("{} has no value", option);
     fix = fmt::format("give {} VALUE, as {} --help describes it", option, path);
   }
-  return InputError({{"", 0, "command line", problem, fix, "command.line"}});
+  return InputError("command line", problem, fix, "command.line");
 }
 
 // Adds a subcommand whose callback stores the function to run in `chosen`.

@@ -17,8 +17,8 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
   const std::vector<std::string> names(model.body_name.begin() + 1, model.body_name.end());
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
-  faults.add({"", 0, option, "there is no body '" + name + "'",
-              others + name_remedy(name, names, "bodies"), "option.unknown-name"});
+  faults.add(option, "there is no body '" + name + "'", others + name_remedy(name, names, "bodies"),
+             "option.unknown-name");
   return 0;
 }
 
@@ -54,8 +54,8 @@ void read_about(const std::string& text, const Model<double>& model, InspectView
     if (numbers.size() == 3)
       view.from.point = Vector3(numbers[0], numbers[1], numbers[2]);
     else
-      faults.add({"", 0, "--about", "'" + text + "' is not a point",
-                  "give three world coordinates x,y,z [m]", "option.form"});
+      faults.add("--about", "'" + text + "' is not a point",
+                 "give three world coordinates x,y,z [m]", "option.form");
   } else {
     view.from.about = About::body;
     view.from.about_body =
@@ -71,9 +71,9 @@ void read_passes(const InspectOptions& options, InspectView& view, DiagnosticLis
   for (const std::string& pass : options.passes) {
     const auto found = std::ranges::find(names, pass);
     if (found == names.end())
-      faults.add({"", 0, "--pass", "there is no pass '" + pass + "'",
-                  "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)",
-                  "option.choice"});
+      faults.add("--pass", "there is no pass '" + pass + "'",
+                 "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)",
+                 "option.choice");
     else
       view.passes.push_back(static_cast<int>(found - names.begin()) + 1);
   }
@@ -105,9 +105,9 @@ void read_forces(const InspectOptions& options, const std::vector<AppliedForce>&
         found = true;
       }
     if (!found)
-      faults.add({"", 0, "--force", "no force '" + wanted + "' acts in this state",
-                  names.empty() ? "only gravity acts" : name_remedy(wanted, names, "forces"),
-                  "option.unknown-name"});
+      faults.add("--force", "no force '" + wanted + "' acts in this state",
+                 names.empty() ? "only gravity acts" : name_remedy(wanted, names, "forces"),
+                 "option.unknown-name");
   }
 }
 

@@ -78,8 +78,8 @@ void LabRun::restart(const LabFrame& from) {
     StateArchive memory = simulation_memory(from.recorded.memory);
     visit_state(memory, robot.model, robot.state.x);
   } catch (const std::runtime_error&) {
-    throw InputError({{"", 0, "change", "the change gives the scene other joints",
-                       "reset the run to its start first", "change.joints"}});
+    throw InputError("change", "the change gives the scene other joints",
+                     "reset the run to its start first", "change.joints");
   }
   RunStart start;
   start.anew = true;

@@ -15,8 +15,8 @@ bool apply_option(const Change& change, RunSettings& options, DiagnosticList& fa
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
-      faults.add({"", 0, "--set " + change.path + "=" + change.value, "not a number",
-                  "give a number", "change.number"});
+      faults.add("--set " + change.path + "=" + change.value, "not a number", "give a number",
+                 "change.number");
   };
   if (change.path == "step")
     number(options.step);

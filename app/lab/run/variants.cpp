@@ -81,8 +81,7 @@ VariantSet parse_variants(const std::string& text) {
   variants.path = text.substr(0, equals);
   if (equals != std::string::npos) variants.values = split_values(text.substr(equals + 1));
   if (const auto found = problem_of(variants))
-    throw InputError(
-        {{"", 0, "--variants " + text, found->problem, found->fix, "option.variants"}});
+    throw InputError("--variants " + text, found->problem, found->fix, "option.variants");
   return variants;
 }
 

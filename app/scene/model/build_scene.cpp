@@ -48,8 +48,8 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
   }
   const std::string fault = MeshShape{std::move(mesh)}.fault();
   if (!fault.empty())
-    throw InputError({{"", 0, "", "mesh '" + file->name + "': " + fault,
-                       "repair the mesh, or give convex = true to use its hull", "scene.mesh"}});
+    throw InputError("", "mesh '" + file->name + "': " + fault,
+                     "repair the mesh, or give convex = true to use its hull", "scene.mesh");
 }
 
 MotionFunction law_of(const Pose& X_WB, const BodyMotion& motion) {

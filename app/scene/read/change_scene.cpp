@@ -57,7 +57,7 @@ class PathWalk {
  private:
   [[noreturn]] void fault(const std::string& problem, const std::string& fix,
                           std::string_view code) const {
-    throw InputError({{"", 0, where_, problem, fix, code}});
+    throw InputError(where_, problem, fix, code);
   }
   bool is_last(std::size_t p) const { return p + 1 == path_.parts.size(); }
   std::string up_to(std::size_t p) const {  // the path before part p: "the scene", "'body[0]'"
@@ -172,11 +172,11 @@ void set_number(Value& scene, const std::string& text, double value, int line,
   if (!found) return;
   for (const PathTarget& target : *found)
     if (!target.value->is_number())
-      return faults.add(
-          {"", 0, where, "'" + text + "' is " + describe(*target.value) + ", not a number",
-           target.value->is_list() ? "name one of them: " + path.parts.back().name + "[0]"
-                                   : "name a number of the scene file",
-           "path.no-number"});
+      return faults.add(where, "'" + text + "' is " + describe(*target.value) + ", not a number",
+                        target.value->is_list()
+                            ? "name one of them: " + path.parts.back().name + "[0]"
+                            : "name a number of the scene file",
+                        "path.no-number");
   for (const PathTarget& target : *found) {
     target.value->number = value;
     target.value->line = line;
@@ -186,17 +186,15 @@ void set_number(Value& scene, const std::string& text, double value, int line,
 Change parse_change(const std::string& text) {
   const std::size_t equal = text.find('=');
   if (equal == std::string::npos || equal == 0 || equal + 1 == text.size())
-    throw InputError({{"", 0, "--set", "'" + text + "' is not a change",
-                       "write PATH=VALUE, as in coupling.stiffness=800", "change.form"}});
+    throw InputError("--set", "'" + text + "' is not a change",
+                     "write PATH=VALUE, as in coupling.stiffness=800", "change.form");
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
 void apply(const Change& change, int line, Value& scene, DiagnosticList& faults) {
   const std::string where = "--set " + change.path;
   const auto fault = [&](const std::string& problem, const std::string& fix,
-                         std::string_view code) {
-    faults.add({"", 0, where, problem, fix, code});
-  };
+                         std::string_view code) { faults.add(where, problem, fix, code); };
   constexpr std::size_t kMaxDepth = 16;
   const ValuePath path(change.path);
   if (path.parts.size() > kMaxDepth)

@@ -110,8 +110,8 @@ void CalibrationEntry::keep(const std::array<double, 2>& max_deg,
 const CalibrationEntry& Calibration::entry(const std::string& name) const {
   const auto found = entries.find(name);
   if (found == entries.end())
-    throw InputError({{"", 0, "calibration", "missing entry '" + name + "'",
-                       "run `twinarm study --recalibrate`", "study.calibration"}});
+    throw InputError("calibration", "missing entry '" + name + "'",
+                     "run `twinarm study --recalibrate`", "study.calibration");
   return found->second;
 }
 

@@ -190,7 +190,7 @@ FittedRun fitted_run(const StudyInputs& inputs, const std::string& row, const Fa
 Identification identify_one(const StudyInputs& inputs, const std::string& problem) {
   DiagnosticList faults;
   const auto fault = [&](std::string what, std::string fix) {
-    faults.add({"", 0, "--identify-one", std::move(what), std::move(fix), "study.question"});
+    faults.add("--identify-one", std::move(what), std::move(fix), "study.question");
   };
   const std::vector<std::string> parts = split(problem, '/');
   if (parts.size() != 3) {

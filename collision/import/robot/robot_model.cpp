@@ -139,8 +139,8 @@ Model<double> build_model(const RobotDescription& robot, const ModelOptions& opt
 
 const std::filesystem::path& file_of(const MeshGeometry& geometry) {
   if (geometry.file.empty())
-    throw InputError({{"", 0, "mesh '" + geometry.name + "'", "its file was not found",
-                       "put it at the path in the robot's file", "file.missing"}});
+    throw InputError("mesh '" + geometry.name + "'", "its file was not found",
+                     "put it at the path in the robot's file", "file.missing");
   return geometry.file;
 }
 
