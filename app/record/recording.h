@@ -114,7 +114,7 @@ class RecordingWriter {
   // Whether the frame of this step becomes a keyframe, and so needs its memory.
   bool needs_memory(long step) const { return !keyframe_ || step - *keyframe_ >= keyframe_every_; }
   void write(RecordedFrame& frame);
-  // Writes how the run ended and renames the file. Throws InputError.
+  // Writes how the run ended and renames the file, if it has a frame. Throws InputError.
   void finish(const std::string& how);
 
  private:

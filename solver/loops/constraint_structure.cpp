@@ -1,3 +1,4 @@
+// Structure of constraint_elimination.h: which rows meet at which body. Determined once.
 #include "solver/loops/constraint_elimination.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 //   base to tips   y_i = D_i^-1 (u_i - U_i^T X_i dv_p + L^T lambda),   dv_i = X_i dv_p + S_i y_i
 // At the body where all entries of a row have been seen, solver/loops/constraint_elimination.h
 // eliminates its lambda, which adds dIA to IA there; U and D of that body and its ancestors change.
-// A held joint has D^-1 = 0. Reads Xup, S, U, D and D_factors of aba() at the same q.
+// A held joint has D^-1 = 0. Reads Xup, S, U, D and D_factors of aba() at the same q; body axes.
 // S is double.
 #pragma once
 
@@ -101,12 +101,7 @@ template <class S>
                                         std::size_t end) {
   for (std::size_t i = end; i-- > first;)
     visit_factors<S>(model, c.f, i, [&](auto joint, const auto& of) {
-      const std::size_t iv = model.iv[i];
-      const auto u = slice<joint.nv>(b, iv) - transpose_times(of.S_i, c.p[i]);
-      const auto y = solve(of.D, u);
-      c.p[static_cast<std::size_t>(model.parent[i])] +=
-          transpose_times(of.X, c.p[i] + times(of.U, y));
-      store(y, c.y, iv);
+      const auto u = carry_force(model, of, i, b, c.p, c.y);
       const ConstraintWorkspace::Front& front = c.fronts[i];
       for (std::size_t j = 0; j < front.open; ++j)
         for (std::size_t k = 0; k < joint.nv; ++k) {

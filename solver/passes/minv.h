@@ -44,20 +44,28 @@ void visit_factors(const Model<S>& model, const Workspace<S>& w, std::size_t i, 
   });
 }
 
+// The joint's share of the sweep towards the base, u = b_i - S_i^T p_i, y_i = D_i^-1 u and the
+// force on the parent; returns u.
+template <class S, class Joint>
+VecN<S, Joint::nv> carry_force(const Model<S>& model, const BodyFactors<S, S, Joint>& of,
+                               std::size_t i, const std::vector<S>& b, std::vector<Force<S>>& p,
+                               std::vector<S>& y) {
+  const std::size_t iv = model.iv[i];
+  const auto u = slice<Joint::nv>(b, iv) - transpose_times(of.S_i, p[i]);
+  const auto y_i = solve(of.D, u);
+  p[static_cast<std::size_t>(model.parent[i])] += transpose_times(of.X, p[i] + times(of.U, y_i));
+  store(y_i, y, iv);
+  return u;
+}
+
 template <class S>
 [[gnu::flatten]] void minv_times(const Model<S>& model, const std::vector<S>& b,
                                  const std::vector<Force<S>>& f, Workspace<S>& w) {
   const std::size_t n_bodies = model.parent.size();
   for (std::size_t i = 0; i < n_bodies; ++i) w.p[i] = -f[i];
   for (std::size_t i = n_bodies; i-- > 1;)
-    visit_factors(model, w, i, [&](auto joint, const auto& of) {
-      const std::size_t iv = model.iv[i];
-      const auto u = slice<joint.nv>(b, iv) - transpose_times(of.S_i, w.p[i]);
-      const auto y = solve(of.D, u);
-      w.p[static_cast<std::size_t>(model.parent[i])] +=
-          transpose_times(of.X, w.p[i] + times(of.U, y));
-      store(y, w.y, iv);
-    });
+    visit_factors(model, w, i,
+                  [&](auto, const auto& of) { carry_force(model, of, i, b, w.p, w.y); });
 
   w.dv[0] = {};
   for (std::size_t i = 1; i < n_bodies; ++i)

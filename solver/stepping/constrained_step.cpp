@@ -140,7 +140,7 @@ void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
   system_.add_sources({m.k, system_.trees, m.x, Phase::position_correction, h});
   system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::position_correction);
   system_.trees.set_mass_matrix(system_.problem, nullptr, m.w);
-  system_.solver.solve(system_.problem, false);
+  system_.solver.solve(system_.problem, /*full=*/false);
   system_.trees.scatter(system_.problem, delta_);
   integrate_coordinates(*model_, m.x.q, delta_, m.x.q);
   if (m.account) m.account->add_separation(penetrating_, m.x);

@@ -86,8 +86,8 @@ class Simulation {
 // restores the sources: not thread-safe. copy: memory for further calls, at first empty.
 State<double> side_step(const Simulation& from, double h, StepReport* report = nullptr,
                         std::optional<Simulation>* copy = nullptr);
-// `copy` of the mechanism, at first empty, at state x after one evaluation of all forces, without
-// contacts and limits. Sources and exceptions as in side_step(). May allocate.
+// `copy` of this simulation's mechanism, at first empty, at state x after one evaluation of all
+// forces, without contacts and limits. Sources and exceptions as in side_step(). May allocate.
 void evaluate_at(const Simulation& simulation, const State<double>& x,
                  std::optional<IntegrationState>& copy);
 

@@ -200,7 +200,7 @@ int run_program(int argc, char** argv) {
     return report(InputError({{error.path1().string(), 0, "", error.code().message(),
                                "check the name and its folder", "file.unwritable"}}),
                   as_json);
-  } catch (const Interrupted&) {  // told below
+  } catch (const Interrupted&) {  // reported below
   } catch (const std::exception& error) {
     // An error of printing may be the cause: then it is reported instead.
     const int code = check_output(kInternal, as_json);

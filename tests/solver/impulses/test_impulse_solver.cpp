@@ -206,7 +206,7 @@ TEST_CASE(
       problem.constraints().back().b[0] = -distance;
     }
     ImpulseSolver solver;
-    const ImpulseReport report = solver.solve(problem, false);
+    const ImpulseReport report = solver.solve(problem, /*full=*/false);
     CHECK(!report.converged);
     CHECK(report.path == 0);
     CHECK(report.newton <= solver.max_newton);
