@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "app/support/parallel_for.h"
 #include "app/support/progress.h"
 #include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_check.h"
@@ -32,10 +33,12 @@ class RobotFromCad {
     file_name(recipe_.name, "recipe", 1);
     Progress progress(false, Progress::kPatience);
     for (const RecipeLink& link : recipe_.links) {
-      progress.stage("link " + link.name, 1 / static_cast<double>(recipe_.links.size()));
+      progress.stage("link " + link.name, 0.3 / static_cast<double>(recipe_.links.size()));
       check_interrupt();
       make_link(link);
     }
+    progress.stage("convex hulls", 0.7);
+    make_hulls(progress);
     RobotCheck check = check_robot(result_.robot, true);
     faults_.add(check.faults);
     result_.robot.warnings = std::move(check.warnings);
@@ -89,7 +92,7 @@ class RobotFromCad {
         link.inertia = 0.5 * (sum->inertia + sum->inertia.transpose());
       }
     }
-    for (const RecipeCollision& collision : recipe.collisions) make_hull(collision, meshes, link);
+    for (const RecipeCollision& collision : recipe.collisions) add_hull(collision, meshes, link);
     result_.robot.links.push_back(std::move(link));
   }
 
@@ -122,13 +125,16 @@ class RobotFromCad {
       masses.push_back(*mass);
   }
 
-  void make_hull(const RecipeCollision& collision,
-                 const std::map<std::string, TriangleMesh>& meshes, LinkDescription& link) {
+  void add_hull(const RecipeCollision& collision, const std::map<std::string, TriangleMesh>& meshes,
+                LinkDescription& link) {
     const std::string where = "link '" + link.name + "', collision '" + collision.name + "'";
     file_name(collision.name, where, collision.line);
     if (!hull_names_.insert(collision.name).second)
       fault(collision.line, where, "duplicate name of a collision", "give each its own `name`");
-    std::vector<Vector3> points;
+    HullPoints hull{where,
+                    collision.line,
+                    recipe_.file.parent_path() / "collision" / (collision.name + ".stl"),
+                    {}};
     for (const std::string& part : collision.parts) {
       const auto mesh = meshes.find(part);
       if (mesh == meshes.end()) {
@@ -137,23 +143,40 @@ class RobotFromCad {
         return;
       }
       if (mesh->second.vertices.empty()) return;  // reported already
-      points.insert(points.end(), mesh->second.vertices.begin(), mesh->second.vertices.end());
+      hull.points.insert(hull.points.end(), mesh->second.vertices.begin(),
+                         mesh->second.vertices.end());
     }
-    const auto hull = with_line(collision.line, where, [&] { return convex_hull(points); });
-    if (!hull) return;
-    const auto file = recipe_.file.parent_path() / "collision" / (collision.name + ".stl");
-    result_.hulls.push_back({file, recipe_.mesh_scale, {hull->vertices, hull->triangles}});
     CollisionPart part;
     part.name = collision.name;
     part.line = collision.line;
-    part.geometry = MeshGeometry{file, Vector3::Constant(recipe_.mesh_scale), {}};
+    part.geometry = MeshGeometry{hull.file, Vector3::Constant(recipe_.mesh_scale), {}};
     link.collisions.push_back(std::move(part));
+    hulls_.push_back(std::move(hull));
   }
+
+  void make_hulls(Progress& progress) {
+    auto hulls = parallel_results(
+        hulls_.size(), [&](std::size_t k) { return convex_hull(hulls_[k].points); },
+        [&](std::size_t done) { progress.advance(done, hulls_.size()); });
+    for (std::size_t k = 0; k < hulls.size(); ++k)
+      if (auto hull = with_line(hulls_[k].line, hulls_[k].where, [&] { return hulls[k].get(); }))
+        result_.hulls.push_back({std::move(hulls_[k].file),
+                                 recipe_.mesh_scale,
+                                 {std::move(hull->vertices), std::move(hull->triangles)}});
+  }
+
+  struct HullPoints {
+    std::string where;  // in error messages
+    int line;
+    std::filesystem::path file;
+    std::vector<Vector3> points;
+  };
 
   DiagnosticList faults_;  // before recipe_, whose initialisation fills it
   RecipeFile recipe_;
   RecipeResult result_;
   std::set<std::string> hull_names_;
+  std::vector<HullPoints> hulls_;
 };
 
 std::string comment_for(const RobotDescription& robot) {

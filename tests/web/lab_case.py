@@ -55,6 +55,8 @@ class LabCase(unittest.TestCase):
         self.page.resize(1280, 720)
         self.page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=self.folder.name)
         self.page.open(self.url)
+        if not self.pictures:  # few pictures per second: each takes 35 ms in software rendering
+            self.page.evaluate("twinarm.page.live.interval = 150")
 
     def tearDown(self):
         errors = list(self.page.errors)
@@ -99,6 +101,8 @@ class LabCase(unittest.TestCase):
                                      None), f"a download {end}")
 
     def drag_tip(self, right, down):
+        self.value("twinarm.page.live.interval = 0")  # the handle is where the picture shows it
+        self.page.frames(3)
         ring = "document.querySelector('button.grip').getBoundingClientRect()"
         x, y = self.value(f"(r => [r.x + r.width / 2, r.y + r.height / 2])({ring})")
         self.mouse("mouseMoved", (x, y))

@@ -5,9 +5,48 @@
 #include <string_view>
 
 #include "app/scene/read/read_scene.h"
+#include "app/support/parallel_for.h"
+#include "app/support/progress.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
+
+namespace {
+
+// Shapes of all geometries. Files of meshes are read one after the other, since a process with
+// threads should not fork; hulls are made on all processors.
+std::vector<Shape> collision_shapes(const SceneModel& scene) {
+  std::vector<Shape> shapes;
+  std::vector<std::size_t> convex;           // indices of meshes to be replaced by their hulls
+  std::vector<std::vector<Vector3>> points;  // of these
+  std::size_t triangles = 0;                 // of the other meshes
+  for (const SceneGeometry& geometry : scene.geometries) {
+    const auto* file = std::get_if<MeshGeometry>(&geometry.shape);
+    if (file && file->convex) {
+      convex.push_back(shapes.size());
+      points.push_back(load_mesh(*file).vertices);
+      shapes.emplace_back();
+      continue;
+    }
+    shapes.push_back(collision_shape(geometry.shape));
+    if (file) triangles += std::get<MeshShape>(shapes.back()).mesh.triangles.size();
+    constexpr std::size_t kMaxTriangles = 300000;  // each takes 2.5 kB
+    if (triangles > kMaxTriangles)
+      throw InputError({{scene.description.file.string(), 0, "",
+                         "meshes that may touch have more than 300,000 triangles in all",
+                         "give convex = true, or simplify them", "scene.too-many"}});
+  }
+  if (convex.empty()) return shapes;
+  Progress progress(false, Progress::kPatience);
+  progress.stage("convex hulls", 1);
+  auto hulls = parallel_results(
+      convex.size(), [&](std::size_t k) { return convex_hull(points[k]); },
+      [&](std::size_t done) { progress.advance(done, convex.size()); });
+  for (std::size_t k = 0; k < convex.size(); ++k) shapes[convex[k]] = hulls[k].get();
+  return shapes;
+}
+
+}  // namespace
 
 bool limits_act(const SceneModel& scene, Integrator integrator) {
   const auto has_limits = [](const RobotInScene& robot) {
@@ -86,22 +125,16 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
 }
 
 void SceneContacts::add_geometries() {
-  std::size_t triangles = 0;  // of meshes that are not replaced by their hulls
-  for (const SceneGeometry& g : scene_.geometries) {
-    Shape shape = collision_shape(g.shape);
-    if (const auto* mesh = std::get_if<MeshShape>(&shape)) triangles += mesh->mesh.triangles.size();
-    constexpr std::size_t kMaxTriangles = 300000;  // each takes 2.5 kB
-    if (triangles > kMaxTriangles)
-      throw InputError({{scene_.description.file.string(), 0, "",
-                         "meshes that may touch have more than 300,000 triangles in all",
-                         "give convex = true, or simplify them", "scene.too-many"}});
+  std::vector<Shape> shapes = collision_shapes(scene_);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const SceneGeometry& g = scene_.geometries[k];
     const ContactSurface surface{.friction = g.friction,
                                  .restitution = g.restitution,
                                  .torsional = g.torsional_friction,
                                  .rolling = g.rolling_friction,
                                  .stiffness = g.stiffness,
                                  .dissipation = g.dissipation};
-    contacts_->bodies().add({g.name, g.body, g.X_LG, std::move(shape), surface, 0});
+    contacts_->bodies().add({g.name, g.body, g.X_LG, std::move(shapes[k]), surface, 0});
   }
   contacts_->bodies().world().set_pair_filter(
       [&scene = scene_](int a, int b) { return scene.is_apart(a, b); });

@@ -76,6 +76,7 @@ export class Page implements LabPage {
   private readonly listeners: Listener[] = [this.run, ...this.panels]; // the run first: panels read it
   private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
+  private paintedAt = 0; // [ms]
 
   constructor() {
     const { parameters, plots, energy } = this.set;
@@ -199,7 +200,7 @@ export class Page implements LabPage {
     this.drag.tick();
     this.operator.flush();
     this.takeNews(this.link.take());
-    if (this.stale && this.frame) this.paint(this.frame, now);
+    if (this.stale && this.frame && now - this.paintedAt >= this.live.interval) this.paint(this.frame, now);
     this.picture?.tick(now);
     this.hints.tick(now, (!this.drag.held && this.keys.hint) || this.drag.hint);
     for (const panel of this.panels)
@@ -246,6 +247,7 @@ export class Page implements LabPage {
 
   private paint(frame: wire.Frame, now: number): void {
     this.live.paint(frame, this.overlays, this.selected, this.views.body);
+    this.paintedAt = now;
     this.stale = false; // following a body has moved the camera, which is drawn already
     this.drag.draw(this.keys);
     this.operator.measureDelay(frame);

@@ -15,6 +15,9 @@ export class LiveStage {
   stage: Stage | null = null; // null: before the first scene, or without WebGL
   private readonly gl = webGl(); // null: none
   private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
+  // Time between pictures [ms]: without a graphics card at most 30 per second, since they are
+  // computed on the processors that also compute the run.
+  readonly interval = this.isSlow ? 30 : 0;
   readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
   private readonly tag = element('div.tag', { hidden: '' });
