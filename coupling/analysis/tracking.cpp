@@ -85,29 +85,28 @@ using Eigen::VectorXd;
 
 JumpErrors response_to_velocity_steps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
                                       const std::vector<VelocityStep>& jumps, double duration) {
-  const MatrixXd inverse = inverse_of(M), of_e = -inverse * K, of_v = -inverse * B;
+  const Eigen::Index n = M.rows();
+  const MatrixXd inverse = inverse_of(M), I = MatrixXd::Identity(2 * n, 2 * n);
+  MatrixXd A = MatrixXd::Zero(2 * n, 2 * n);  // of x = (e, v)
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomRows(n) << -inverse * K, -inverse * B;
   const double max_omega = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
   const double max_damping = squared_frequencies(M, B).maxCoeff();
   const double max_step = std::min(duration / 100, 0.02 / std::max(max_omega, max_damping));
-  const auto a = [&](const VectorXd& x, const VectorXd& xd) {
-    return VectorXd(of_e * x + of_v * xd);
-  };
-  VectorXd e = VectorXd::Zero(M.rows()), v = e;
-  JumpErrors errors{e, e};
+  VectorXd x = VectorXd::Zero(2 * n), next = x;
+  JumpErrors errors{x.head(n), x.head(n)};
   for (std::size_t j = 0; j < jumps.size(); ++j) {
-    v += jumps[j].V;
+    x.tail(n) += jumps[j].V;
     const double stretch = (j + 1 < jumps.size() ? jumps[j + 1].t : duration) - jumps[j].t;
     const auto steps = static_cast<long>(std::ceil(stretch / max_step));
     const double dt = stretch / static_cast<double>(steps);
-    for (long n = 0; n < steps; ++n) {  // classical Runge-Kutta
-      const VectorXd before = e.cwiseAbs(), a1 = a(e, v);
-      const VectorXd v2 = v + dt / 2 * a1, a2 = a(e + dt / 2 * v, v2);
-      const VectorXd v3 = v + dt / 2 * a2, a3 = a(e + dt / 2 * v2, v3);
-      const VectorXd v4 = v + dt * a3, a4 = a(e + dt * v3, v4);
-      e += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
-      v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-      errors.peak = errors.peak.cwiseMax(e.cwiseAbs());
-      errors.mean += dt / 2 / duration * (before + e.cwiseAbs());
+    const MatrixXd X = dt * A;
+    const MatrixXd step = I + X * (I + X / 2 * (I + X / 3 * (I + X / 4)));  // Runge-Kutta, order 4
+    for (long k = 0; k < steps; ++k) {
+      next.noalias() = step * x;
+      errors.peak = errors.peak.cwiseMax(next.head(n).cwiseAbs());
+      errors.mean += dt / 2 / duration * (x.head(n).cwiseAbs() + next.head(n).cwiseAbs());
+      x.swap(next);
     }
   }
   return errors;

@@ -173,7 +173,7 @@ def visit(program, seconds, seed, say):
     with tempfile.TemporaryDirectory() as folder, Browser(width=1280, height=720, scale=0.25) as page:
         page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
         page.open(lab.url)
-        page.evaluate("window.isSamePage = true")
+        page.evaluate("window.isSamePage = true; twinarm.page.live.interval = 150")
         user = RandomUser(page, random.Random(seed), say)
         first, most = page.heap(), 0
         begin = reported_at = time.monotonic()
