@@ -67,8 +67,11 @@ ModeErrors errors_of_mode(double omega, double zeta, const PredictTask& task) {
   ModeErrors errors;
   errors.start = peak_after_jump(v, omega, zeta);
   errors.reversal = peak_after_jump(2 * v, omega, zeta);
+  const auto one = [](double value) { return MatrixXd::Constant(1, 1, value); };
+  const MultiJointTrackingError behind({one(1), one(omega * omega), one(2 * zeta * omega), one(0)});
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
-    errors.smooth[i] = ProfileError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
+    errors.smooth[i] =
+        behind.behind(kSmoothMoves[i], VectorXd::Constant(1, task.distance), task.time)[0];
   errors.absolute_lag = absolute_damper_error(v, omega, zeta);
   errors.weld_lag = mocap_weld_error(v, 1 / omega);
   return errors;

@@ -36,6 +36,18 @@ Eigen::RowVectorXd coefficients(const ProfileSegment::Series& series) {
   return row;
 }
 
+// The last of three equally spaced samples; if the middle one is the largest, the maximum of the
+// parabola through them.
+VectorXd peak_of(const VectorXd& before, const VectorXd& middle, const VectorXd& after) {
+  VectorXd peak = after;
+  for (Index j = 0; j < peak.size(); ++j) {
+    const double second = before[j] - 2 * middle[j] + after[j], first = after[j] - before[j];
+    if (middle[j] >= std::max(before[j], after[j]) && second < 0)
+      peak[j] = middle[j] - first * first / (8 * second);
+  }
+  return peak;
+}
+
 }  // namespace
 
 MultiJointTrackingError::MultiJointTrackingError(ChainDynamics dynamics)
@@ -108,9 +120,12 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
     const double until = p + 1 < pieces.size() ? pieces[p + 1].start : end;
     const double count = std::max(1.0, std::ceil(samples * (until - piece.start) / end));
     const MatrixXd step = ((until - piece.start) / count * A).exp();
+    VectorXd before, now = (shapes_ * z.head(m)).cwiseAbs();
     for (double n = 0; n < count; ++n) {
       z = VectorXd(step * z);
-      peak = peak.cwiseMax((shapes_ * z.head(m)).cwiseAbs());
+      const VectorXd after = (shapes_ * z.head(m)).cwiseAbs();
+      peak = peak.cwiseMax(n > 0 ? peak_of(before, now, after) : after);
+      before = std::exchange(now, after);
     }
   }
   return restrict_to_held(peak.cwiseMax(e.cwiseAbs()), kNone);

@@ -1,5 +1,4 @@
-// Tracking errors of the coupled joints of a chain behind a moving target (one degree of freedom:
-// tracking.h).
+// Tracking errors of the coupled joints of a chain behind a moving target.
 //
 //   M e'' + B e' + K e = M a_K(t) + A v_K(t),      e = q_K - q_D,
 //
@@ -7,7 +6,8 @@
 // modes e = X y, X^T M X = 1,
 //   y'' + X^T B X y' + W^2 y = X^T (M a_K + A v_K).
 // The profile's polynomials and cosines satisfy a linear equation g' = N g: (y, y', g) is advanced
-// by one matrix exponential, exact at the samples. Cost O(samples (2 modes + 7)^2).
+// by one matrix exponential, exact at the samples; a peak between them is that of a parabola. Cost
+// O(samples (2 modes + 7)^2).
 #pragma once
 
 #include <Eigen/Core>

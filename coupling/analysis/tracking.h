@@ -112,40 +112,4 @@ struct ProfileSegment {
 };
 std::vector<ProfileSegment> segments_of(MotionProfile move, double distance, double time);
 
-// Closed-form error for such a profile, from rest with e = 0.
-class ProfileError {
- public:
-  enum class Damper { relative, absolute };
-  ProfileError(MotionProfile move, double distance, double time, double omega, double zeta,
-               Damper damper = Damper::relative);
-  // At a time t >= 0.
-  double at(double t) const;
-  // Maximum |e|.
-  double peak() const;
-
- private:
-  // Right-hand side; the particular solution has the same form.
-  using Forcing = ProfileSegment::Series;
-  struct Piece {
-    double start = 0, jump = 0;  // as ProfileSegment
-    Forcing right, particular;
-    double e = 0, e_dot = 0;  // initial values of the homogeneous solution
-  };
-  void add_piece(const ProfileSegment& move);
-  void solve();
-  struct Motion {
-    double e, e_dot;
-  };
-  Motion of_particular(const Piece& piece, double s) const;
-  Motion free_motion(double e, double e_dot, double s) const;
-  Motion in_piece(const Piece& piece, double s) const {
-    const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
-    return {of.e + free.e, of.e_dot + free.e_dot};
-  }
-
-  double time_, omega_, zeta_, W_;  // [s], [rad/s], 1, [rad/s]
-  Damper damper_;
-  std::vector<Piece> pieces_;
-};
-
 }  // namespace twinarm

@@ -5,6 +5,7 @@
 #include "coupling/analysis/prediction.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/analysis/one_joint.h"
+#include "tests/coupling/analysis/profile_error.h"
 #include "tests/coupling/analysis/two_link.h"
 
 using namespace twinarm;
@@ -145,15 +146,15 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
           const ProfileError closed(
               move, D, T, omega, zeta,
               absolute ? ProfileError::Damper::absolute : ProfileError::Damper::relative);
-          CHECK(chain.behind(move, distance, T)[0] == doctest::Approx(closed.peak()).epsilon(1e-4));
+          CHECK(chain.behind(move, distance, T)[0] == doctest::Approx(closed.peak()).epsilon(1e-6));
         }
         CHECK(chain.steady_state(distance / T)[0] ==
               doctest::Approx(absolute ? absolute_damper_error(D / T, omega, zeta) : 0));
         if (absolute) continue;
         CHECK(chain.after_start(distance / T, T)[0] ==
-              doctest::Approx(peak_after_jump(D / T, omega, zeta)).epsilon(1e-4));
+              doctest::Approx(peak_after_jump(D / T, omega, zeta)).epsilon(1e-6));
         CHECK(chain.after_reversal(distance / T, T)[0] ==
-              doctest::Approx(peak_after_jump(2 * D / T, omega, zeta)).epsilon(1e-4));
+              doctest::Approx(peak_after_jump(2 * D / T, omega, zeta)).epsilon(1e-6));
       }
 }
 

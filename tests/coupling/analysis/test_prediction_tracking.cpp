@@ -1,5 +1,5 @@
-// Tracking error behind a moving target: closed form of coupling/analysis/tracking.h against
-// simulations, and known peaks.
+// Tracking error behind a moving target: the closed form, which is the oracle of
+// test_prediction_chain.cpp, against simulations; and known peaks.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -9,6 +9,7 @@
 
 #include "coupling/analysis/prediction.h"
 #include "tests/coupling/analysis/one_joint.h"
+#include "tests/coupling/analysis/profile_error.h"
 #include "tests/coupling/analysis/two_link.h"
 
 using namespace twinarm;
@@ -143,10 +144,13 @@ TEST_CASE("the peak after a velocity step is (V/w) exp(-z acos z / sqrt(1 - z^2)
 // (w T = 50) reaches 1.43 and 0.94 instead of 1.5 and 1.02.
 TEST_CASE("a_max/w^2 is the peak behind a quintic; factors of other profiles") {
   constexpr double kPi = std::numbers::pi;
-  const auto times_rule = [](MotionProfile move, double omega, double zeta) {
+  const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  const auto times_rule = [&](MotionProfile move, double omega, double zeta) {
     // Maximum acceleration of a unit profile in unit time, by MotionProfile; a ramp has none.
     const std::array largest{0.0, 6.0, 10 / std::sqrt(3.0), kPi * kPi / 2, 4.0};
-    return ProfileError(move, kTurn, 1, omega, zeta).peak() * omega * omega /
+    const MultiJointTrackingError error(
+        {one(1), one(omega * omega), one(2 * zeta * omega), one(0)});
+    return error.behind(move, one(kTurn), 1)[0] * omega * omega /
            (largest[static_cast<std::size_t>(move)] * std::abs(kTurn));
   };
   CHECK(times_rule(MotionProfile::quintic, 200, 0.2) == doctest::Approx(1).epsilon(0.01));
