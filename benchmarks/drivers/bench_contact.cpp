@@ -78,15 +78,15 @@ constexpr double ns_per_s = 1e9;
 struct Options {
   Names models{timed_scene_names.begin(), timed_scene_names.end()};
   Names engines;  // empty: all
-  int repetitions = 3;
   bool quick = false;
+  int repetitions() const { return quick ? 1 : 3; }
 };
 
 // Of one engine in one scene.
 struct Row {
   std::string engine, model;
-  std::vector<double> whole, settling, rest;  // by repetition: mean time of a step [s]
-  Json observed;                              // contact quality, and of the solver where known
+  std::vector<double> whole, rest;  // by repetition: mean time of a step [s]
+  Json observed;                    // contact quality, and of the solver where known
 };
 
 void start(Engine& engine, const TimedScene& timed) {
@@ -133,11 +133,9 @@ void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
       for (int k = 0; k < steps_per_turn; ++k) engines[i]->step();
       (step < settling ? first : then)[i] += thread_seconds() - start;
     }
-  const int early = std::min(settling, timed.steps);
   for (std::size_t i = 0; i < engines.size(); ++i) {
     rows[i].whole.push_back((first[i] + then[i]) / timed.steps);
-    rows[i].settling.push_back(first[i] / early);
-    rows[i].rest.push_back(then[i] / std::max(1, timed.steps - early));
+    rows[i].rest.push_back(then[i] / std::max(1, timed.steps - settling));
   }
 }
 
@@ -153,7 +151,7 @@ std::vector<Row> measure(const Options& options, const std::string& model, Stage
     stages.begin(model + ", " + rows[i].engine + ": contact quality", 1.0 / count);
     rows[i].observed = observe(*engines[i], timed);
   }
-  for (int repetition = 0; repetition < options.repetitions; ++repetition) {
+  for (int repetition = 0; repetition < options.repetitions(); ++repetition) {
     stages.begin(model + ", all engines in turns");
     repeat(engines, timed, rows);
   }
@@ -166,7 +164,6 @@ Json json_of(const Row& row) {
                {"model", row.model},
                {"ns", ns_per_s * median_of(row.whole)},
                {"spread", spread_of(row.whole)},
-               {"ns_settling", ns_per_s * median_of(row.settling)},
                {"ns_rest", ns_per_s * median_of(row.rest)}};
   json.update(row.observed);
   return json;
@@ -174,7 +171,7 @@ Json json_of(const Row& row) {
 
 int run(const Options& options) {
   Stages stages("bench_contact",
-                static_cast<double>(options.models.size()) * (1 + options.repetitions));
+                static_cast<double>(options.models.size()) * (1 + options.repetitions()));
   Json rows = Json::array();
   for (const std::string& model : options.models)
     for (const Row& row : measure(options, model, stages)) rows.push_back(json_of(row));
@@ -196,11 +193,7 @@ int main(int argc, char** argv) {
   add_names(program, "--models", o.models, "default: all", o.models);
   const Names engines = names_of(engines_of_build(&Engine::is_timed_with_contacts));
   add_names(program, "--engines", o.engines, "default: all of this build", engines);
-  program.add_flag_callback(
-      "--quick", [&] { o.quick = true, o.repetitions = 1; },
-      "one repetition of the first 50 steps");
-  add_positive(program, "--repetitions", o.repetitions,
-               "of the whole run; the engines alternate every 50 steps");
+  program.add_flag("--quick", o.quick, "one repetition of the first 50 steps");
   add_list(program, "prints the engines", engines);
   program.footer(
       "Example: bench_contact --models pyr55 --engines \"twinarm double,bullet\"\n"
