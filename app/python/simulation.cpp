@@ -14,27 +14,19 @@
 namespace twinarm::python {
 namespace {
 
-// Constant until set again.
-class JointForces : public ForceSource {
- public:
-  explicit JointForces(std::size_t nv) : tau(nv) {}
-  void add_forces(const State<double>&, const Kinematics&,
-                  Forces<double>& forces) noexcept override {
-    for (std::size_t k = 0; k < tau.size(); ++k) forces.tau[k] += tau[k];
-  }
-  std::vector<double> tau;
-};
-
 struct RobotInMotion : OnlyConstructed {
   Robot& robot;
-  JointForces forces;
+  std::vector<double> tau;  // constant until set again
+  ForceLaw forces{[this](const auto&, const auto&, Forces<double>& all) {
+    for (std::size_t k = 0; k < tau.size(); ++k) all.tau[k] += tau[k];
+  }};
   Simulation simulation;
   double h;
   long steps = 0, unsolved = 0;
 
   RobotInMotion(Robot& r, State<double> start, double step, bool friction)
       : robot(r),
-        forces(r.model.nv),
+        tau(r.model.nv),
         simulation(r.model, std::move(start), {.joint_friction = friction}),
         h(step) {
     simulation.add(forces);
@@ -165,9 +157,9 @@ void add_readings(SimulationClass& simulation) {
       "qd", [](const RobotInMotion& moving) { return frozen(moving.simulation.state().qd); },
       "(nv,) velocities [rad/s, m/s]; a copy, set by set_state()");
   simulation.def_property(
-      "tau", [](const RobotInMotion& moving) { return frozen(moving.forces.tau); },
+      "tau", [](const RobotInMotion& moving) { return frozen(moving.tau); },
       [](RobotInMotion& moving, const py::object& tau) {
-        moving.forces.tau = vector_of(tau, moving.robot.model.nv, "tau", moving.robot.size_of_qd());
+        moving.tau = vector_of(tau, moving.robot.model.nv, "tau", moving.robot.size_of_qd());
       },
       "(nv,) joint forces [N m, N], constant until set again: sim.tau = [..]");
   simulation.def_readonly("h", &RobotInMotion::h, "the step [s]");

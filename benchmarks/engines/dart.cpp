@@ -42,13 +42,9 @@ class ReportsOnStderr {
   std::streambuf* out_;
 };
 
-// DART's coordinates: of the base the rotation vector and position; velocities, accelerations and
-// forces are twists and wrenches in body axes, angular part first.
-struct DartState {
-  Eigen::VectorXd q, v, tau, qdd;
-};
-
-class Dart final : public PeerEngine<DartState> {
+// Situations in DART's coordinates: of the base the rotation vector and position; velocities,
+// accelerations and forces are twists and wrenches in body axes, angular part first.
+class Dart final : public PeerEngine<VectorState> {
  public:
   std::string name() const override { return "dart"; }
   std::vector<Scheme> schemes(const Scene&) const override { return {{"semi-implicit"}}; }
@@ -192,12 +188,8 @@ class Dart final : public PeerEngine<DartState> {
     return dd::FreeJoint::convertToPositions(X);
   }
 
-  DartState convert(const Situation& s) const override {
-    const auto eigen = [](const std::vector<double>& v) {
-      return Eigen::VectorXd(
-          Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
-    };
-    DartState state{eigen(s.q), eigen(s.v), eigen(s.tau), eigen(s.qdd)};
+  VectorState convert(const Situation& s) const override {
+    VectorState state(s);
     if (!scene_.floats()) return state;
     const Base base(s);
     const Eigen::Quaterniond R_BW = base.R.conjugate();
@@ -211,7 +203,7 @@ class Dart final : public PeerEngine<DartState> {
     return state;
   }
 
-  void run_one(Algorithm algorithm, const DartState& state) override {
+  void run_one(Algorithm algorithm, const VectorState& state) override {
     skeleton_->setPositions(state.q);
     switch (algorithm) {
       case Algorithm::mass_matrix:

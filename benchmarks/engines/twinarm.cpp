@@ -182,7 +182,7 @@ class Twinarm final : public TwinarmPasses<double> {
     } else {
       simulation_->set_integrator(find_integrator(scheme.name).value(), h);
     }
-    if (pushes_.is_needed()) simulation_->add(pushes_);
+    if (has_pushes(scene_)) simulation_->add(pushes_);
   }
   void step() override {
     const double h = scheme_.adaptive ? std::min(0.1, until_ - t()) : h_;
@@ -240,7 +240,7 @@ class Twinarm final : public TwinarmPasses<double> {
   std::optional<ForwardDynamics> constrained_;
   std::optional<Kinematics> frames_;
   std::optional<Forces<double>> forces_;
-  ScenePushes pushes_{scene_};
+  ForceLaw pushes_ = pushes_of(scene_);
   std::optional<WatchedContacts> contacts_;
   std::optional<Simulation> simulation_;
   Scheme scheme_;

@@ -10,30 +10,19 @@
 
 namespace twinarm::bench {
 
-// Constant forces on bodies, and the control torques.
-class ScenePushes final : public ForceSource {
- public:
-  explicit ScenePushes(const Scene& scene) : scene_(scene) {}
-  bool is_needed() const {
-    return scene_.control ||
-           std::ranges::any_of(scene_.bodies, [](const Body& b) { return !b.push.isZero(0); });
-  }
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& f) noexcept override {
-    if (scene_.control) {
-      for (std::size_t j = 0; j < f.tau.size(); ++j)
-        f.tau[j] += scene_.control->torque(j, x.q[j], x.qd[j]);
-      return;
-    }
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      const Vector3 F_B = k.R_WB[i + 1].transpose() * scene_.bodies[i].push;
-      f.f_ext[i + 1].f += from_eigen(F_B);
-    }
-  }
-
- private:
-  const Scene& scene_;
-};
+// Constant forces on bodies, or the control torques.
+inline ForceLaw pushes_of(const Scene& scene) {
+  return ForceLaw([&scene](const State<double>& x, const Kinematics& k, Forces<double>& f) {
+    for (std::size_t j = 0; scene.control && j < f.tau.size(); ++j)
+      f.tau[j] += scene.control->torque(j, x.q[j], x.qd[j]);
+    for (std::size_t i = 0; !scene.control && i < scene.bodies.size(); ++i)
+      f.f_ext[i + 1].f += from_eigen(Vector3(k.R_WB[i + 1].transpose() * scene.bodies[i].push));
+  });
+}
+inline bool has_pushes(const Scene& scene) {
+  return scene.control ||
+         std::ranges::any_of(scene.bodies, [](const Body& b) { return !b.push.isZero(0); });
+}
 
 // Contacts with timers around detection and the solver (from add_constraints to read_impulses).
 class WatchedContacts final : public ContactConstraints {

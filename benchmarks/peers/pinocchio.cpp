@@ -18,11 +18,6 @@ namespace {
 namespace pin = pinocchio;
 using Eigen::VectorXd;
 
-// Of a base: the linear part first, both in body axes; q with x, y, z, w.
-struct PinocchioState {
-  VectorXd q, v, tau, qdd;
-};
-
 pin::JointModel joint_of(const Body& b) {
   if (b.joint == Joint::free) return pin::JointModelFreeFlyer();
   if (b.axis == 0) return pin::JointModelRX();
@@ -30,7 +25,8 @@ pin::JointModel joint_of(const Body& b) {
   return pin::JointModelRZ();
 }
 
-class Pinocchio final : public PeerEngine<PinocchioState> {
+// Situations of a base: the linear part first, both in body axes; q with x, y, z, w.
+class Pinocchio final : public PeerEngine<VectorState> {
  public:
   Pinocchio(std::string name, pin::Convention axes) : name_(std::move(name)), axes_(axes) {}
   std::string name() const override { return name_; }
@@ -80,11 +76,8 @@ class Pinocchio final : public PeerEngine<PinocchioState> {
   }
 
  protected:
-  PinocchioState convert(const Situation& s) const override {
-    const auto vector = [](const std::vector<double>& of) {
-      return VectorXd(Eigen::Map<const VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
-    };
-    PinocchioState to{vector(s.q), vector(s.v), vector(s.tau), vector(s.qdd)};
+  VectorState convert(const Situation& s) const override {
+    VectorState to(s);
     if (!scene_.floats()) return to;
     const Eigen::Matrix3d R = quaternion(&s.q[3]).toRotationMatrix();
     std::rotate(&to.q[3], &to.q[4], &to.q[6] + 1);
@@ -95,7 +88,7 @@ class Pinocchio final : public PeerEngine<PinocchioState> {
     to.qdd.head<3>() -= to.v.segment<3>(3).cross(to.v.head<3>());
     return to;
   }
-  void run_one(Algorithm algorithm, const PinocchioState& s) override {
+  void run_one(Algorithm algorithm, const VectorState& s) override {
     switch (algorithm) {
       case Algorithm::forward_dynamics:
         pin::aba(model_, *data_, s.q, s.v, s.tau, axes_);
@@ -131,7 +124,7 @@ class Pinocchio final : public PeerEngine<PinocchioState> {
   }
 
  private:
-  std::vector<double> in_order_of_scene(const VectorXd& qdd, const PinocchioState& s) const {
+  std::vector<double> in_order_of_scene(const VectorXd& qdd, const VectorState& s) const {
     VectorXd out = qdd;
     if (scene_.floats()) {
       const Eigen::Matrix3d R = Eigen::Quaterniond(&s.q[3]).toRotationMatrix();
@@ -148,7 +141,7 @@ class Pinocchio final : public PeerEngine<PinocchioState> {
   PINOCCHIO_STD_VECTOR_WITH_EIGEN_ALLOCATOR(pin::RigidConstraintModel) pins_;
   PINOCCHIO_STD_VECTOR_WITH_EIGEN_ALLOCATOR(pin::RigidConstraintData) pin_data_;
   pin::ProximalSettings once_{1e-10, 0, 1}, repeated_{1e-10, 1e-8, 10};
-  PinocchioState next_;
+  VectorState next_;
   VectorXd shift_;
 };
 

@@ -9,12 +9,8 @@ namespace {
 namespace rbd = RigidBodyDynamics;
 using rbd::Math::VectorNd;
 
-// Of a base: the position first; its quaternion as x, y, z, with w at the end of q.
-struct RbdlState {
-  VectorNd q, v, tau, qdd;
-};
-
-class Rbdl final : public PeerEngine<RbdlState> {
+// Situations of a base: the position first; its quaternion as x, y, z, with w at the end of q.
+class Rbdl final : public PeerEngine<VectorState> {
  public:
   std::string name() const override { return "rbdl"; }
   bool has(Algorithm algorithm) const override {
@@ -53,17 +49,14 @@ class Rbdl final : public PeerEngine<RbdlState> {
   }
 
  protected:
-  RbdlState convert(const Situation& s) const override {
-    const auto vector = [](const std::vector<double>& of) {
-      return VectorNd(Eigen::Map<const VectorNd>(of.data(), static_cast<Eigen::Index>(of.size())));
-    };
-    RbdlState to{vector(s.q), vector(s.v), vector(s.tau), vector(s.qdd)};
+  VectorState convert(const Situation& s) const override {
+    VectorState to(s);
     if (!scene_.floats()) return to;
     std::rotate(&to.q[3], &to.q[4], to.q.data() + to.q.size());
     for (VectorNd* of : {&to.v, &to.tau, &to.qdd}) std::rotate(of->data(), &(*of)[3], &(*of)[6]);
     return to;
   }
-  void run_one(Algorithm algorithm, const RbdlState& s) override {
+  void run_one(Algorithm algorithm, const VectorState& s) override {
     switch (algorithm) {
       case Algorithm::forward_dynamics:
         rbd::ForwardDynamics(*model_, s.q, s.v, s.tau, qdd_);
@@ -111,7 +104,7 @@ class Rbdl final : public PeerEngine<RbdlState> {
   std::unique_ptr<rbd::ConstraintSet> pin_;
   VectorNd qdd_, tau_, unit_;
   rbd::Math::MatrixNd M_;
-  RbdlState next_;
+  VectorState next_;
 };
 
 }  // namespace

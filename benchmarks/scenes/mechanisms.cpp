@@ -20,13 +20,10 @@ auto seeded(unsigned seed) {
 
 // Roll about x, pitch about y, yaw about z, fixed axes, in this order.
 Eigen::Matrix3d rotation(const Vector3d& rpy) {
-  using std::cos, std::sin;
-  const double roll = rpy.x(), pitch = rpy.y(), yaw = rpy.z();
-  Eigen::Matrix3d X, Y, Z;
-  X << 1, 0, 0, 0, cos(roll), -sin(roll), 0, sin(roll), cos(roll);
-  Y << cos(pitch), 0, sin(pitch), 0, 1, 0, -sin(pitch), 0, cos(pitch);
-  Z << cos(yaw), -sin(yaw), 0, sin(yaw), cos(yaw), 0, 0, 0, 1;
-  return Z * Y * X;
+  const auto about = [&](const auto& axis, Eigen::Index k) {
+    return Eigen::AngleAxisd(rpy[k], axis).toRotationMatrix();
+  };
+  return about(Vector3d::UnitZ(), 2) * about(Vector3d::UnitY(), 1) * about(Vector3d::UnitX(), 0);
 }
 
 // With these principal moments, about axes rotated by R against the body axes.

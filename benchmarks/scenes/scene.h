@@ -119,6 +119,17 @@ inline std::size_t index(int body) {
   return static_cast<std::size_t>(body);
 }
 
+// A situation as vectors of Eigen.
+struct VectorState {
+  Eigen::VectorXd q, v, tau, qdd;
+  VectorState() = default;
+  explicit VectorState(const Situation& s)
+      : q(vector_of(s.q)), v(vector_of(s.v)), tau(vector_of(s.tau)), qdd(vector_of(s.qdd)) {}
+  static Eigen::VectorXd vector_of(const std::vector<double>& v) {
+    return Eigen::VectorXd::Map(v.data(), static_cast<Eigen::Index>(v.size()));
+  }
+};
+
 // A floating base: coordinates, velocities and forces.
 struct Base {
   explicit Base(const Situation& s)

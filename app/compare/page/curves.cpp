@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/support/progress.h"
 #include "solver/integration/integrator.h"
@@ -14,15 +13,6 @@ constexpr long kMaxSteps = 50000;                // of the run that is drawn
 constexpr long kFinestSteps = 4000, kSteps = 5;  // of those in the figure of errors
 constexpr std::size_t kManyDofs = 60;            // with which implicit steps are slow
 constexpr int kExactPoints = 24;
-
-// A reference may cost more than a run, and all runs evaluate it at the same times.
-CaseReference cached(CaseReference reference) {
-  return [reference = std::move(reference),
-          known = std::map<double, CaseReadings>()](double t) mutable {
-    const auto found = known.find(t);
-    return found != known.end() ? found->second : known.emplace(t, reference(t)).first->second;
-  };
-}
 
 double end_of(const TrajectoryCase& c) {
   return c.events.count > 0 ? c.reference(c.events.count)[0] : c.times.back();

@@ -124,8 +124,6 @@ CaseResult min_friction_to_hold(double scale) {  // mu
 
 // ---- plots ----
 
-const double kSlideAcceleration =
-    kGravity * (std::sin(kIncline) - 0.5 * std::cos(kIncline));  // [m/s^2]
 Values read_forces(Scene s) {
   if (s.t() == 0) return {NAN, NAN};
   return {-s.force(1).x(), s.force(1).z()};
@@ -134,8 +132,7 @@ Values read_forces(Scene s) {
 double exact_uphill(std::size_t, double t) {
   const double up = kGravity * (std::sin(kIncline) + 0.5 * std::cos(kIncline));
   const double top = 3 / up;
-  return t < top ? 3 * t - up * t * t / 2
-                 : 1.5 * top - kSlideAcceleration * (t - top) * (t - top) / 2;
+  return t < top ? 3 * t - up * t * t / 2 : 1.5 * top - kSlide * (t - top) * (t - top) / 2;
 }
 double exact_stop(std::size_t, double t) {
   const double a = 0.4 * kGravity, end = std::min(t, 3 / a);
@@ -145,8 +142,8 @@ double exact_stop(std::size_t, double t) {
 }  // namespace
 
 CaseFamily sliding_cases() {
-  const auto exact_slide = [](std::size_t, double t) { return kSlideAcceleration * t * t / 2; };
-  const auto exact_slide_speed = [](std::size_t, double t) { return kSlideAcceleration * t; };
+  const auto exact_slide = [](std::size_t, double t) { return kSlide * t * t / 2; };
+  const auto exact_slide_speed = [](std::size_t, double t) { return kSlide * t; };
   const auto read_up = [](Scene s) { return Values{-s.p(1).x()}; };
   const Plot speed{{"speed [m/s]"}, velocity<1, 0>};
   const Plot place_x{{"x downhill [m]"}, place<1, 0>, exact_slide};

@@ -11,8 +11,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <map>
-#include <mutex>
 
 #include "benchmarks/analytic/joints/planar_arm.h"
 #include "coupling/analysis/tracking.h"
@@ -102,19 +100,6 @@ CaseReadings tracking_solution(const TrackedCoupling& coupling, double t) {
   return {x.begin(), x.end()};
 }
 
-// Cached: it takes as long as a run and is evaluated with every integrator.
-CaseReference cached_solution(const TrackedCoupling& coupling) {
-  struct Known {
-    std::mutex lock;
-    std::map<double, CaseReadings> at;
-  };
-  return [coupling, known = std::make_shared<Known>()](double t) {
-    const std::lock_guard held(known->lock);
-    const auto found = known->at.find(t);
-    return found != known->at.end() ? found->second : known->at[t] = tracking_solution(coupling, t);
-  };
-}
-
 // ---- the run ----
 
 CouplingSpec coupling_spec(const TrackedCoupling& coupling) {
@@ -163,7 +148,7 @@ TrajectoryCase tracking_motion(const TrackedCoupling& coupling) {
           .times = {0.05, 1.05, 2.05, 3},  // soon after each velocity step, and at the end
           .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]"},
           .observe = joint_state(),
-          .reference = cached_solution(coupling),
+          .reference = cached([coupling](double t) { return tracking_solution(coupling, t); }),
           .integration = rk4_with(kTrackingStep),
           .mutant = more_inertia};
 }

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
@@ -169,6 +171,18 @@ double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact) 
   double largest = 0;
   for (const double value : exact) largest = std::max(largest, std::abs(value));
   return max_difference(seen, exact) / largest;
+}
+
+CaseReference cached(CaseReference reference) {
+  struct Known {
+    std::mutex lock;
+    std::map<double, CaseReadings> at;
+  };
+  return [reference = std::move(reference), known = std::make_shared<Known>()](double t) {
+    const std::lock_guard held(known->lock);
+    const auto found = known->at.find(t);
+    return found != known->at.end() ? found->second : known->at[t] = reference(t);
+  };
 }
 
 TrajectoryCase evaluation(CaseScene scene, std::vector<std::string> readings, CaseObserver observe,

@@ -61,6 +61,8 @@ inline CaseReadings values(const Vector3& v) {
 }
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
+// The same, evaluated once at each time: it may take as long as a run. For any thread.
+CaseReference cached(CaseReference reference);
 // Error of the readings at one time.
 using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
 
