@@ -10,8 +10,10 @@
 #include <cmath>
 #include <deque>
 #include <random>
+#include <utility>
 
 #include "app/zwidth/zwidth.h"
+#include "coupling/device/device_motion.h"
 #include "coupling/device/force_feedback.h"
 #include "coupling/device/omni.h"
 #include "solver/dynamics/model_builder.h"
@@ -58,20 +60,6 @@ class Network {
   double newest_ = -1, value_ = 0;
 };
 
-// Linear motion from the position received a tick ago to that received now.
-class DelayedMotion final : public OperatorMotion {
- public:
-  double before = 0, now = 0, t = 0, h = 1;
-  OperatorSample sample(double at, double) const override {
-    OperatorSample hand;
-    const double part = std::clamp((at - t) / h, 0.0, 1.0);
-    OperatorMapping{}.set_robot_angle(hand, 0, before + part * (now - before), (now - before) / h);
-    return hand;
-  }
-  double duration() const override { return kRunTime; }
-  std::string description() const override { return "newest position received"; }
-};
-
 Model<double> rail_robot() {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
@@ -82,7 +70,8 @@ Model<double> rail_robot() {
 
 struct RemoteRobot {
   Model<double> model = rail_robot();
-  DelayedMotion hand;
+  DeviceMotion hand{1};  // from the position received a tick ago to that received now
+  double received;
   TargetRobot kvr;
   std::unique_ptr<Coupling> coupling;
   ForceLaw wall{[](const State<double>& x, const Kinematics&, Forces<double>& forces) {
@@ -92,12 +81,14 @@ struct RemoteRobot {
   CouplingReaction reaction{model, {1}};
 
   explicit RemoteRobot(double start)
-      : kvr(model, hand, OperatorMapping{}, {{"rail"}, "", 0, 0}), simulation(model, [&] {
+      : received(start),
+        kvr(model, hand, OperatorMapping{}, {{"rail"}, "", 0, 0}),
+        simulation(model, [&] {
           State<double> x(model);
           x.q[0] = start;
           return x;
         }()) {
-    hand.before = hand.now = start;
+    hand.set({{start}, {0}, false}, 0, 0);
     kvr.set_pose(simulation.state());
     CouplingSpec spec;
     spec.discretization = Discretization::implicit;
@@ -109,10 +100,8 @@ struct RemoteRobot {
     simulation.add(wall);
   }
   double follow(double position, double h) {  // returns the force on the operator [N]
-    hand.before = hand.now;
-    hand.now = position;
-    hand.t = simulation.state().t;
-    hand.h = h;
+    const double before = std::exchange(received, position);
+    hand.set({{before}, {(position - before) / h}, false}, simulation.state().t, h);
     simulation.step(h);
     return reaction.after_step(kvr.end(), simulation.state(), simulation.kinematics(), h)[0];
   }

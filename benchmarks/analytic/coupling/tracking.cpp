@@ -114,35 +114,21 @@ CouplingSpec coupling_spec(const TrackedCoupling& coupling) {
 }
 
 // Target robot, its model and the coupling: functions of state and time.
-class TargetCoupling final : public ForceSource, public Checkpointable {
- public:
-  explicit TargetCoupling(const TrackedCoupling& coupling)
-      : model_(model_of(uniform_arm())),
-        hand_(OperatorMapping{}),
-        kvr_(model_, hand_, OperatorMapping{}, {{"joint1", "joint2"}, "", 0, 0}),
-        coupling_(make_coupling(coupling_spec(coupling), model_, kvr_)) {}
-  void begin_step(const Kinematics& k, double t, double h) noexcept override {
-    coupling_->begin_step(k, t, h);
-  }
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
-    coupling_->add_forces(x, k, forces);
-  }
-  std::vector<double> start() const { return kvr_.start().x.q; }
-
- private:
-  Model<double> model_;
-  AutomaticMotion hand_;
-  TargetRobot kvr_;
-  std::unique_ptr<Coupling> coupling_;
+struct TargetCoupling {
+  explicit TargetCoupling(const TrackedCoupling& given)
+      : coupling(make_coupling(coupling_spec(given), model, kvr)) {}
+  Model<double> model = model_of(uniform_arm());
+  AutomaticMotion hand{OperatorMapping{}};
+  TargetRobot kvr{model, hand, OperatorMapping{}, {{"joint1", "joint2"}, "", 0, 0}};
+  std::unique_ptr<Coupling> coupling;
 };
 
 TrajectoryCase tracking_motion(const TrackedCoupling& coupling) {
   return {.scene =
               [coupling] {
-                const auto source = std::make_shared<TargetCoupling>(coupling);
-                CaseScene scene = start_at(model_of(uniform_arm()), source->start(), {0, 0});
-                scene.sources = {source};
+                const auto whole = std::make_shared<TargetCoupling>(coupling);
+                CaseScene scene = start_at(whole->model, whole->kvr.start().x.q, {0, 0});
+                scene.sources = {std::shared_ptr<ForceSource>(whole, whole->coupling.get())};
                 return not_conserving(scene);
               },
           .times = {0.05, 1.05, 2.05, 3},  // soon after each velocity step, and at the end
