@@ -1,6 +1,7 @@
 #include "coupling/laws/coupling.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/diagnostics.h"
@@ -70,6 +71,31 @@ Vector3 rotation_vector(const Matrix3& R) {
   const double s = quaternion.vec().norm();
   if (s < 1e-12) return 2 * sign * quaternion.vec();  // sin(x) = x to rounding
   return 2 * std::atan2(s, sign * quaternion.w()) / s * sign * quaternion.vec();
+}
+
+// ---- coupling_spec.h ----
+
+const std::vector<CouplingFacts>& couplings_in_order() {
+  static const std::vector<CouplingFacts> all = [] {
+    std::vector<CouplingFacts> sorted = registered_couplings();
+    for (CouplingFacts& facts : sorted)
+      if (facts.type.name.empty()) facts.type.name = facts.name;
+    std::ranges::stable_sort(sorted, {}, &CouplingFacts::order);
+    return sorted;
+  }();
+  return all;
+}
+
+const CouplingFacts& facts_of(CouplingSpec::Type type, bool printed) {
+  return *std::find_if(all_couplings.begin(), all_couplings.end(), [&](const CouplingFacts& facts) {
+    return facts.type == type && facts.printed == printed;
+  });
+}
+
+const CouplingFacts* find_coupling(const std::string& name) {
+  for (const CouplingFacts& facts : all_couplings)
+    if (facts.name == name) return &facts;
+  return nullptr;
 }
 
 }  // namespace twinarm

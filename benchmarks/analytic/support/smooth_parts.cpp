@@ -68,9 +68,8 @@ std::vector<double> inverse_dynamics(const Model<double>& model, const State<dou
 }
 
 Vector3 reaction(ModelRef model, StateRef x) {
-  const std::vector<double> qdd = evaluate(model, x).qdd;
-  Workspace<double> w(model);
-  kinematics(model, x, w);
+  Workspace<double> w = evaluate(model, x);
+  const std::vector<double> qdd = w.qdd;
   rnea(model, x, qdd, std::vector<Force<double>>(model.parent.size()), w);
   return to_eigen(w.X0[1].E).transpose() * to_eigen(w.f[1].f);
 }
