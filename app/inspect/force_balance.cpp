@@ -40,11 +40,8 @@ NamedWrench gravity_on(const Inspection& in, std::size_t i) {
 // Weight of the subtree [N]: scale of the rounding error where a body falls freely.
 double subtree_weight(const Inspection& in, std::size_t i) {
   double mass = 0;
-  for (std::size_t j = i; j < in.body_count(); ++j) {
-    std::size_t ancestor = j;
-    while (ancestor > i) ancestor = in.parent(ancestor);
-    if (ancestor == i) mass += in.model.I[j].m;
-  }
+  for (std::size_t j = i; j < in.body_count(); ++j)
+    if (in.is_below(j, i)) mass += in.model.I[j].m;
   return mass * to_eigen(in.model.gravity).norm();
 }
 

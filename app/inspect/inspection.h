@@ -59,6 +59,11 @@ struct Inspection {
   std::size_t body_count() const { return model.parent.size(); }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(model.parent[i]); }
   std::vector<std::size_t> children(std::size_t i) const;
+  // Whether it is a descendant of the ancestor, or the same body.
+  bool is_below(std::size_t body, std::size_t ancestor) const {
+    while (body > ancestor) body = parent(body);
+    return body == ancestor;
+  }
   // At the acceleration of this state.
   Force<double> force_of(const AppliedForce::OnBody& on) const {
     return on.f - on.added_inertia * w.a[on.body];

@@ -55,7 +55,7 @@ class CrbaRneaReference {
         rigid[subtree] += -qdd[static_cast<Eigen::Index>(dof)] * w_.S_[dof];
     }
     for (std::size_t b = 1; b < in_.body_count(); ++b) {
-      if (subtree > 0 && b > subtree && is_below(b, subtree))
+      if (subtree > 0 && b > subtree && in_.is_below(b, subtree))
         rigid[b] = w_.Xup[b] * rigid[in_.parent(b)];
       f_ext[b] += in_.model.I[b] * rigid[b];
       if (in_.forces.has_added_inertia)
@@ -81,7 +81,7 @@ class CrbaRneaReference {
   Rows rows_of(std::size_t body) const {
     Rows rows;
     for (std::size_t j = body; j < in_.body_count(); ++j) {
-      if (!is_below(j, body)) continue;
+      if (!in_.is_below(j, body)) continue;
       for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
         (j == body ? rows.own : rows.below).push_back(static_cast<Eigen::Index>(dof));
     }
@@ -89,12 +89,6 @@ class CrbaRneaReference {
   }
 
  private:
-  // Whether it is a descendant of the ancestor, or the same body.
-  bool is_below(std::size_t body, std::size_t ancestor) const {
-    while (body > ancestor) body = in_.parent(body);
-    return body == ancestor;
-  }
-
   // J of body b in its own axes has the columns X S_j of its ancestors' joints, X from j to b.
   void add_implicit() {
     for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
