@@ -36,16 +36,10 @@ Eigen::RowVectorXd coefficients(const ProfileSegment::Series& series) {
   return row;
 }
 
-// The last of three equally spaced samples; if the middle one is the largest, the maximum of the
-// parabola through them.
-VectorXd peak_of(const VectorXd& before, const VectorXd& middle, const VectorXd& after) {
-  VectorXd peak = after;
-  for (Index j = 0; j < peak.size(); ++j) {
-    const double second = before[j] - 2 * middle[j] + after[j], first = after[j] - before[j];
-    if (middle[j] >= std::max(before[j], after[j]) && second < 0)
-      peak[j] = middle[j] - first * first / (8 * second);
-  }
-  return peak;
+// Largest |e| between two samples h apart, for a rate that is linear between them.
+double peak_between(double e, double rate, double next, double next_rate, double h) {
+  const double top = rate * next_rate < 0 ? e + h * rate * rate / (2 * (rate - next_rate)) : e;
+  return std::max(std::abs(top), std::abs(next));
 }
 
 }  // namespace
@@ -119,13 +113,15 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
     z.tail(kTerms) << 1, VectorXd::Zero(kPowers - 1), 1, 0;
     const double until = p + 1 < pieces.size() ? pieces[p + 1].start : end;
     const double count = std::max(1.0, std::ceil(samples * (until - piece.start) / end));
-    const MatrixXd step = ((until - piece.start) / count * A).exp();
-    VectorXd before, now = (shapes_ * z.head(m)).cwiseAbs();
+    const double h = (until - piece.start) / count;
+    const MatrixXd step = (h * A).exp();
+    VectorXd error = shapes_ * z.head(m), rate = shapes_ * z.segment(m, m);
     for (double n = 0; n < count; ++n) {
       z = VectorXd(step * z);
-      const VectorXd after = (shapes_ * z.head(m)).cwiseAbs();
-      peak = peak.cwiseMax(n > 0 ? peak_of(before, now, after) : after);
-      before = std::exchange(now, after);
+      const VectorXd next = shapes_ * z.head(m), next_rate = shapes_ * z.segment(m, m);
+      for (Index j = 0; j < peak.size(); ++j)
+        peak[j] = std::max(peak[j], peak_between(error[j], rate[j], next[j], next_rate[j], h));
+      error = next, rate = next_rate;
     }
   }
   return restrict_to_held(peak.cwiseMax(e.cwiseAbs()), kNone);

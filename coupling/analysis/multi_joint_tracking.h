@@ -6,7 +6,7 @@
 // modes e = X y, X^T M X = 1,
 //   y'' + X^T B X y' + W^2 y = X^T (M a_K + A v_K).
 // The profile's polynomials and cosines satisfy a linear equation g' = N g: (y, y', g) is advanced
-// by one matrix exponential, exact at the samples; a peak between them is that of a parabola. Cost
+// by one matrix exponential, exact at the samples; between them the rate is taken as linear. Cost
 // O(samples (2 modes + 7)^2).
 #pragma once
 

@@ -17,7 +17,6 @@
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/analysis/tracking.h"
-#include "coupling/device/device_motion.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm {
@@ -25,6 +24,14 @@ namespace {
 
 constexpr double kInertia = 0.7, kFrame = 0.01, kAmplitude = 1e-9;  // [kg m^2], [s], [rad]
 constexpr int kHeldSteps = 20;  // steps of the integrator in one held step
+
+// A target at rest.
+class ConstantTarget final : public OperatorMotion {
+ public:
+  OperatorSample sample(double, double) const override { return {}; }  // robot angles 0
+  double duration() const override { return 1; }
+  std::string description() const override { return "at rest"; }
+};
 
 // Coupling and integrator of a scheme.
 struct Stepping {
@@ -66,7 +73,7 @@ bool grows(Stepping stepping, const Setting& at, double inertia) {
   stepping.spec.springs = {{"spring", 1, Vector3::Zero(), at.alpha * kInertia / (kFrame * kFrame),
                             at.beta * kInertia / kFrame}};
   const Model<double> model = lone_hinge(inertia);
-  const DeviceMotion input(1);  // at rest, robot angles 0
+  const ConstantTarget input;
   TargetRobot kvr(model, input, OperatorMapping(), {{"joint1"}, "", 0, 0});
   const std::unique_ptr<Coupling> coupling = make_coupling(stepping.spec, model, kvr);
   State<double> start(model);
