@@ -138,8 +138,7 @@ inline double ProfileError::at(double t) const {
   return in_piece(*piece, t - piece->start).e;
 }
 
-// Maximum on a fine grid over the move and one period after it, refined by a parabola through three
-// points.
+// Maximum on a fine grid over the move and one period after it, on a finer one around it.
 inline double ProfileError::peak() const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 4e6;
   const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
@@ -152,9 +151,8 @@ inline double ProfileError::peak() const {
       where = n;
     }
   if (where < 1) return best;
-  const double before = size(where - 1), after = size(where + 1);
-  const double second = before - 2 * best + after;
-  return second < 0 ? best - (after - before) * (after - before) / (8 * second) : best;
+  for (int k = 1; k < 1000; ++k) best = std::max(best, size(where - 1 + k / 500.0));
+  return best;
 }
 
 }  // namespace twinarm::testing

@@ -129,8 +129,8 @@ TEST_CASE("a reversal from the steady state agrees with after_reversal, and K e 
 TEST_CASE("for one joint the errors of a chain are those of one degree of freedom") {
   const auto one = [](double value) { return MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, D = 1.3, T = 0.9;
-  for (const double omega : {4.0, 60.0})
-    for (const double zeta : {0.0, 0.5, 1.0, 2.0})
+  for (const double omega : {4.0, 60.0, 270.0})
+    for (const double zeta : {0.0, 0.5, 1.0, 2.0, 2.7})
       for (const bool absolute : {false, true}) {
         CAPTURE(omega);
         CAPTURE(zeta);
@@ -146,7 +146,7 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
           const ProfileError closed(
               move, D, T, omega, zeta,
               absolute ? ProfileError::Damper::absolute : ProfileError::Damper::relative);
-          CHECK(chain.behind(move, distance, T)[0] == doctest::Approx(closed.peak()).epsilon(1e-6));
+          CHECK(std::abs(chain.behind(move, distance, T)[0] / closed.peak() - 1) < 2e-6);
         }
         CHECK(chain.steady_state(distance / T)[0] ==
               doctest::Approx(absolute ? absolute_damper_error(D / T, omega, zeta) : 0));
