@@ -17,13 +17,15 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "app/lab/server/http_text.h"
-#include "app/lab/server/outgoing_queues.h"
+#include "app/lab/server/outgoing_queue.h"
 #include "app/lab/server/rate_limiter.h"
 
 namespace twinarm::lab_server {
@@ -57,7 +59,6 @@ struct Core : std::enable_shared_from_this<Core> {
   const ServerHandlers handlers;
   std::optional<HostNames> hosts;
   std::string cookie;  // name; contains the port, as browsers share cookies among ports
-  OutgoingQueues queues;
   std::set<std::shared_ptr<Connection>> connections;
   std::size_t live = 0;
   ClientId last_client = 0;
@@ -75,7 +76,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
         address_(std::move(address)),
         opened_at_(Clock::now()) {}
   void start();  // reads the next request
-  void send_next();
+  void send(OutgoingMessage message);
   void check_timeouts(Clock::time_point now);
   void drop();
   bool is_stranger() const { return is_stranger_; }
@@ -83,6 +84,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool is_posting() const {
     return is_permitted_ && parser_ && parser_->get().method() == http::verb::post;
   }
+  ClientId client() const { return client_; }              // 0: no WebSocket
   const std::string& address() const { return address_; }  // of the client
   Clock::time_point opened_at() const { return opened_at_; }
 
@@ -92,7 +94,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // Requests: connection_http.inl
   void read_some();
   void parse();
-  bool is_permitted();  // false: refused with an answer
+  struct Refusal {
+    int status;
+    const char* why;
+  };
+  std::optional<Refusal> refusal();  // of a request; none: it is permitted
   void serve();
   void answer(std::uint64_t request, HttpReply reply);
   void refuse(int status, const std::string& why);
@@ -106,6 +112,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read_message();
   void take_message();
   void take_control(websocket::frame_type kind, std::string_view text);
+  void send_next();
   bool closes_flood();  // true: too many messages, closing
   void ping();
   void close_websocket(websocket::close_code code, const std::string& why);
@@ -128,8 +135,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Bytes body_;
 
   std::optional<WebSocket> ws_;
-  ClientId client_ = 0;  // 0: no WebSocket
+  ClientId client_ = 0;
   boost::beast::flat_buffer message_;
+  OutgoingQueue queue_;
   Bytes writing_;  // message being sent
   bool is_closing_ = false, is_pinging_ = false;
   std::uint64_t sent_ = 0, pinged_ = 0, answered_ = 0;  // numbers of messages
@@ -137,7 +145,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
   RateLimiter messages_;
 };
 
-// Prints the present exception of a handler to stderr; the server continues.
-void log_exception(const char* where);
+// False: the call has thrown; the exception is printed to stderr and the server continues.
+template <class Call>
+bool succeeds(const char* where, const Call& call) {
+  try {
+    call();
+    return true;
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "twinarm lab: exception in '%s': %s\n", where, fault.what());
+  } catch (...) {
+    std::fprintf(stderr, "twinarm lab: exception in '%s'\n", where);
+  }
+  return false;
+}
 
 }  // namespace twinarm::lab_server

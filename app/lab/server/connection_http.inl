@@ -46,7 +46,7 @@ void Connection::parse() {
     if (error && error != http::error::need_more) return refuse(400, "not an HTTP request");
     // The body is read only after the header was accepted.
     if (!is_permitted_ && parser_->is_header_done()) {
-      if (!is_permitted()) return;
+      if (const auto refused = refusal()) return refuse(refused->status, refused->why);
       is_permitted_ = true;
       parser_->eager(true);
     }
@@ -70,42 +70,32 @@ bool Connection::is_within_rate() {
   return messages_.passes(Clock::now(), most, most);
 }
 
-bool Connection::is_permitted() {
+std::optional<Connection::Refusal> Connection::refusal() {
   const Request& request = parser_->get();
   const std::string_view host = view(request[http::field::host]);
   const std::string_view origin = view(request[http::field::origin]);
   const bool is_post = request.method() == http::verb::post;
   const bool is_live = websocket::is_upgrade(request);
-  if (request.count(http::field::host) != 1 || !core_.hosts->has(host)) {
-    refuse(403, "unknown host name: open the address that `twinarm lab` printed");
-    return false;
-  }
-  if (!has_token(view(request.target()))) {
-    refuse(403,
-           "the token is missing: open the whole address that `twinarm lab` printed, with "
-           "?token=..");
-    return false;
-  }
+  if (request.count(http::field::host) != 1 || !core_.hosts->has(host))
+    return Refusal{403, "unknown host name: open the address that `twinarm lab` printed"};
+  if (!has_token(view(request.target())))
+    return Refusal{403,
+                   "the token is missing: open the whole address that `twinarm lab` printed, with "
+                   "?token=.."};
   is_stranger_ = false;
-  if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host)) {
-    refuse(403, "cross-origin request refused");
-  } else if (!is_post && request.method() != http::verb::get &&
-             request.method() != http::verb::head) {
-    refuse(405, "method not allowed; use GET, HEAD or POST");
-  } else if (!is_within_rate()) {
-    refuse(429, "too many requests per second");
-  } else if (!is_post && !parser_->is_done()) {
-    refuse(400, "only POST may have a body");
-  } else if (is_post && core_.handlers.may_post &&
-             !core_.handlers.may_post(std::string(query_of(view(request.target()))))) {
-    refuse(403, "another client has control; request it");
-  } else if (is_post && std::ranges::count_if(core_.connections, &Connection::is_posting) >=
-                            core_.options.max_posts) {
-    refuse(503, "too many uploads at once; try again");
-  } else {
-    return true;
-  }
-  return false;
+  if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host))
+    return Refusal{403, "cross-origin request refused"};
+  if (!is_post && request.method() != http::verb::get && request.method() != http::verb::head)
+    return Refusal{405, "method not allowed; use GET, HEAD or POST"};
+  if (!is_within_rate()) return Refusal{429, "too many requests per second"};
+  if (!is_post && !parser_->is_done()) return Refusal{400, "only POST may have a body"};
+  if (is_post && core_.handlers.may_post &&
+      !core_.handlers.may_post(std::string(query_of(view(request.target())))))
+    return Refusal{403, "another client has control; request it"};
+  if (is_post && std::ranges::count_if(core_.connections, &Connection::is_posting) >=
+                     core_.options.max_posts)
+    return Refusal{503, "too many uploads at once; try again"};
+  return {};
 }
 
 void Connection::serve() {
@@ -125,12 +115,8 @@ void Connection::serve() {
         if (const auto connection = self.lock()) connection->answer(number, std::move(reply));
       });
   };
-  try {
-    core_.handlers.http(parsed, answer);
-  } catch (...) {
-    log_exception("http");
+  if (!succeeds("http", [&] { core_.handlers.http(parsed, answer); }))
     answer({.status = 500, .body = shared_bytes("internal error of the lab\n")});
-  }
 }
 
 void Connection::answer(std::uint64_t request_number, HttpReply reply) {

@@ -32,14 +32,10 @@ void Connection::upgrade_to_websocket() {
     self->parser_.reset();
     self->progress_ = self->pinged_at_ = Clock::now();
     self->client_ = ++self->core_.last_client;
-    self->core_.queues.open(self->client_);
-    try {
-      if (self->core_.handlers.opened) self->core_.handlers.opened(self->client_, self->address_);
-    } catch (...) {
-      log_exception("opened");
-    }
+    succeeds("opened", [&opened = self->core_.handlers.opened, &self] {
+      if (opened) opened(self->client_, self->address_);
+    });
     self->read_message();
-    self->send_next();
   });
 }
 
@@ -58,11 +54,9 @@ void Connection::take_message() {
   const auto data = message_.data();
   const std::string text(static_cast<const char*>(data.data()), data.size());
   message_.consume(message_.size());
-  try {
+  succeeds("message", [&] {
     if (core_.handlers.message) core_.handlers.message(client_, text);
-  } catch (...) {
-    log_exception("message");
-  }
+  });
   read_message();
 }
 
@@ -87,9 +81,14 @@ bool Connection::closes_flood() {
   return true;
 }
 
+void Connection::send(OutgoingMessage message) {
+  queue_.put(std::move(message));
+  send_next();
+}
+
 void Connection::send_next() {
   if (client_ == 0 || is_closing_ || writing_ || sent_ - answered_ >= kMaxUnanswered) return;
-  const std::optional<OutgoingQueues::Message> next = core_.queues.take(client_);
+  const std::optional<OutgoingMessage> next = queue_.take();
   if (!next) return;
   if (sent_ == answered_) progress_ = Clock::now();
   writing_ = next->bytes;
@@ -158,12 +157,9 @@ void Connection::drop() {
   core_.connections.erase(self);
   if (ws_) --core_.live;
   if (client_ == 0) return;
-  core_.queues.close(client_);
-  try {
+  succeeds("closed", [&] {
     if (core_.handlers.closed) core_.handlers.closed(client_);
-  } catch (...) {
-    log_exception("closed");
-  }
+  });
 }
 
 }  // namespace twinarm::lab_server

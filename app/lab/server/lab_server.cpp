@@ -4,8 +4,6 @@
 #include <pthread.h>
 #include <sys/random.h>
 
-#include <cstdio>
-#include <exception>
 #include <thread>
 
 #include "app/lab/server/connection_live.inl"
@@ -13,16 +11,6 @@
 
 namespace twinarm {
 namespace lab_server {
-
-void log_exception(const char* where) {
-  try {
-    throw;
-  } catch (const std::exception& fault) {
-    std::fprintf(stderr, "twinarm lab: exception in '%s': %s\n", where, fault.what());
-  } catch (...) {
-    std::fprintf(stderr, "twinarm lab: exception in '%s'\n", where);
-  }
-}
 
 Bytes Core::packed(const Bytes& body) {
   if (plain_.lock() != body) {
@@ -137,22 +125,8 @@ struct LabServer::Impl {
     });
   }
 
-  void wake() {
-    net::post(core->io, [core = core.get()] {
-      core->queues.clear_wakeup();
-      const auto all = core->connections;
-      for (const auto& connection : all) connection->send_next();
-    });
-  }
-
   void work() {
-    while (!core->io.stopped()) {
-      try {
-        core->io.run();
-      } catch (...) {
-        log_exception("server");
-      }
-    }
+    while (!core->io.stopped()) succeeds("server", [this] { core->io.run(); });
   }
 
   std::shared_ptr<Core> core;
@@ -176,7 +150,11 @@ std::string LabServer::url() const {
 }
 
 void LabServer::send(ClientId client, int channel, Bytes message, bool is_binary) {
-  if (impl_->core->queues.put(client, channel, {std::move(message), is_binary})) impl_->wake();
+  net::post(impl_->core->io, [core = impl_->core.get(), client,
+                              next = OutgoingMessage{channel, std::move(message), is_binary}] {
+    const auto found = std::ranges::find(core->connections, client, &Connection::client);
+    if (found != core->connections.end()) (*found)->send(next);
+  });
 }
 
 std::string random_token() {

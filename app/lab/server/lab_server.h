@@ -78,7 +78,7 @@ class LabServer {
   std::uint16_t port() const;
   // "http://127.0.0.1:PORT/?token=.."
   std::string url() const;
-  // From any thread; returns at once. `channel`: small number, see outgoing_queues.h.
+  // From any thread; returns at once. `channel`: small number, see outgoing_queue.h.
   void send(ClientId client, int channel, Bytes message, bool is_binary);
 
  private:

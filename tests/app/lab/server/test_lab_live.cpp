@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/lab/server/outgoing_queues.h"
+#include "app/lab/server/outgoing_queue.h"
 #include "tests/app/lab/server/lab_host.h"
 
 using namespace twinarm;
@@ -148,29 +148,25 @@ TEST_CASE("WebSocket: faster than a client reads, messages stay in order, and th
   CHECK(last_binary == kMessages - 1);
 }
 
-TEST_CASE("outgoing queues: no full channel starves, and channel 0 goes first") {
-  OutgoingQueues queues;
-  queues.open(1);
-  CHECK(queues.put(1, 3, {bytes_of("c"), true}));
-  CHECK_FALSE(queues.put(1, 1, {bytes_of("a"), true}));  // already woken
-  queues.put(1, 2, {bytes_of("b"), true});
-  queues.clear_wakeup();
+TEST_CASE("outgoing queue: no full channel starves, and channel 0 goes first") {
+  OutgoingQueue queue;
+  queue.put({3, bytes_of("c"), true});
+  queue.put({1, bytes_of("a"), true});
+  queue.put({2, bytes_of("b"), true});
   std::string order;
   for (int n = 0; n < 9; ++n) {
-    const std::string taken = *queues.take(1)->bytes;
+    const std::string taken = *queue.take()->bytes;
     order += taken;
     // A newer one in every channel.
     for (int channel = 1; channel <= 3; ++channel)
-      queues.put(1, channel,
-                 {bytes_of(std::string(1, static_cast<char>('a' + channel - 1))), true});
+      queue.put({channel, bytes_of(std::string(1, static_cast<char>('a' + channel - 1))), true});
   }
   CHECK(order.substr(0, 3) == "cab");
   for (const char channel : {'a', 'b', 'c'})
     CHECK(std::count(order.begin(), order.end(), channel) == 3);
-  queues.put(1, 0, {bytes_of("first"), false});
-  CHECK(*queues.take(1)->bytes == "first");
-  CHECK_FALSE(queues.put(2, 0, {bytes_of("unknown client"), false}));
-  CHECK_FALSE(queues.take(2));
+  queue.put({0, bytes_of("first"), false});
+  CHECK(*queue.take()->bytes == "first");
+  CHECK_FALSE(OutgoingQueue().take());
 }
 
 TEST_CASE(
