@@ -145,8 +145,9 @@ class Lab {
                  static_cast<std::size_t>(options.history) << 20),
         streamer_(
             session_, clients_, gallery_,
-            [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool binary) {
-              server_->send(client, channel, std::move(bytes), binary);
+            [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes) {
+              server_->send(client, channel, std::move(bytes),
+                            channel == MessageStreamer::frame_channel);
             }),
         routes_(session_, streamer_, clients_, gallery_, std::string(web_bundle().lab),
                 std::string(web_bundle().missing)) {

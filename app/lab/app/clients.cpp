@@ -192,8 +192,12 @@ std::string state_message(const LabStatus& status, const Clients::View& clients,
     write_time(json, status);
     write_hand(json, status.hand);
     write_parameters(parameters, json.key("parameters"));
-    write_presets(json.key("presets"));
-    write_gallery(gallery, json.key("gallery"));
+    json.key("presets").list(all_presets(), [&](const Preset& preset) {
+      json.object({{"name", preset.name}, {"what", preset.what}});
+    });
+    json.key("gallery").list(gallery, [&](const GalleryScene& scene) {
+      json.object({{"name", scene.name}, {"title", scene.title}, {"look", scene.look}});
+    });
     write_end(json, status);
     json.key("notes").list(status.notes, [&](const LabNote& note) {
       json.object({{"n", note.number}, {"level", note.level}, {"text", note.text}});

@@ -59,11 +59,10 @@ HttpReply streamer_reply(MessageStreamer& streamer, const HttpRequest& request) 
     const double from = number_of(request.query, "from", 0);
     return file_of("application/octet-stream", shared_bytes(streamer.history(from)));
   }
-  const MeshStore& store = streamer.view().store();
-  const std::string mesh = after(path, "/mesh/"), texture = after(path, "/texture/");
-  const Bytes found = mesh.empty() ? store.texture(texture) : store.mesh(mesh);
+  const bool is_mesh = path.starts_with("/mesh/");
+  const Bytes found = streamer.view().store().file(after(path, is_mesh ? "/mesh/" : "/texture/"));
   if (!found) return not_found();
-  HttpReply reply = file_of(mesh.empty() ? "image/png" : "application/octet-stream", found);
+  HttpReply reply = file_of(is_mesh ? "application/octet-stream" : "image/png", found);
   reply.lasts = true;
   return reply;
 }

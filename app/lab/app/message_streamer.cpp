@@ -93,8 +93,8 @@ void MessageStreamer::greet_new_clients() {
   std::vector<ClientId> current = clients_.view().clients;
   for (const ClientId client : current) {
     if (std::ranges::find(greeted_, client) != greeted_.end()) continue;
-    post_(client, scene_channel, shared_bytes(view_->scene_message()), false);
-    if (last_frame_) post_(client, frame_channel, last_frame_, true);
+    post_(client, scene_channel, shared_bytes(view_->scene_message()));
+    if (last_frame_) post_(client, frame_channel, last_frame_);
     state_.clear();  // sent to all clients: control may have changed
   }
   greeted_ = std::move(current);
@@ -135,7 +135,7 @@ void MessageStreamer::take_scene(const LabNow& now) {
 void MessageStreamer::send_scene() {
   revision_ = view_->revision();
   const Bytes message = shared_bytes(view_->scene_message());
-  for (const ClientId client : greeted_) post_(client, scene_channel, message, false);
+  for (const ClientId client : greeted_) post_(client, scene_channel, message);
 }
 
 void MessageStreamer::update_limits(const LabNow& now) {
@@ -155,8 +155,7 @@ void MessageStreamer::send_state(const LabNow& now) {
   if (state == state_) return;
   state_ = std::move(state);
   for (const ClientId client : greeted_)
-    post_(client, state_channel, shared_bytes(addressed(state_, client, clients_.secret(client))),
-          false);
+    post_(client, state_channel, shared_bytes(addressed(state_, client, clients_.secret(client))));
 }
 
 // Sends each frame once. Returns the time until the next may be sent [s]; a newer one may replace
@@ -184,7 +183,7 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   drawing.unlock();
   if (view_->revision() != revision_) send_scene();
   last_frame_ = shared_bytes(std::move(frame));
-  for (const ClientId client : greeted_) post_(client, frame_channel, last_frame_, true);
+  for (const ClientId client : greeted_) post_(client, frame_channel, last_frame_);
   return kIdle;
 }
 
@@ -209,8 +208,7 @@ void MessageStreamer::send_inspections(const LabNow& now) {
       continue;
     const InspectRequest request{static_cast<std::size_t>(std::max(0L, inspection.body)), paused,
                                  static_cast<unsigned>(now.scene_number), now.rows.get()};
-    post_(client, inspection_channel, shared_bytes(inspector_->message(*now.frame, request)),
-          false);
+    post_(client, inspection_channel, shared_bytes(inspector_->message(*now.frame, request)));
   }
   sent_inspections_ = std::move(wanted);
 }

@@ -26,9 +26,10 @@ namespace twinarm {
 
 class MessageStreamer {
  public:
+  // All are text but for frame_channel.
   enum Channel { scene_channel, state_channel, frame_channel, inspection_channel };
   // Sends to one client; called from the streamer's thread.
-  using Post = std::function<void(ClientId, Channel, Bytes, bool is_binary)>;
+  using Post = std::function<void(ClientId, Channel, Bytes)>;
 
   // All must outlive it.
   MessageStreamer(LabSession& session, Clients& clients, const std::vector<GalleryScene>& gallery,

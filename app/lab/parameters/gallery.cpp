@@ -67,7 +67,7 @@ std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
   for (const Value* entry : top.tables("scene")) {
     TableReader table(*entry, "scene", name, faults);
     gallery.push_back(read_entry(table, file.parent_path(), name, faults));
-    if (find_scene(gallery, gallery.back().name) != &gallery.back())
+    if (std::ranges::count(gallery, gallery.back().name, &GalleryScene::name) > 1)
       table.fault("name", "the name is used twice", "give each scene its own name",
                   "gallery.name-taken");
   }
@@ -82,17 +82,6 @@ std::vector<GalleryScene> read_gallery() {
                       "gallery.toml");
 }
 
-const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name) {
-  const auto found = std::ranges::find(gallery, name, &GalleryScene::name);
-  return found == gallery.end() ? nullptr : &*found;
-}
-
-void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json) {
-  json.list(gallery, [&](const GalleryScene& scene) {
-    json.object({{"name", scene.name}, {"title", scene.title}, {"look", scene.look}});
-  });
-}
-
 // A test compares gains, step and masses of these scenes with those of `twinarm study`.
 const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> presets{
@@ -101,18 +90,6 @@ const std::vector<Preset>& all_presets() {
       {"E3", "the paper's E3: torsional coupling, automatic motion", "study_e3.toml", {}, "scene"},
       {"E4", "the paper's E4: linear coupling, automatic motion", "study_e4.toml", {}, "scene"}};
   return presets;
-}
-
-const Preset* find_preset(const std::string& name) {
-  const auto& all = all_presets();
-  const auto found = std::ranges::find(all, name, &Preset::name);
-  return found == all.end() ? nullptr : &*found;
-}
-
-void write_presets(JsonWriter& json) {
-  json.list(all_presets(), [&](const Preset& preset) {
-    json.object({{"name", preset.name}, {"what", preset.what}});
-  });
 }
 
 }  // namespace twinarm

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "app/data/json_writer.h"
 #include "app/lab/run/variants.h"
 
 namespace twinarm {
@@ -24,11 +23,6 @@ struct GalleryScene {
 std::vector<GalleryScene> read_gallery(const std::filesystem::path& file);
 // Of the assets; `twinarm lab` opens the first one by default.
 std::vector<GalleryScene> read_gallery();
-// Null: unknown name.
-const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name);
-
-// The list `gallery` of docs/reference/lab_protocol.md.
-void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json);
 
 // The paper's four experiments: a scene of the gallery and changes to it.
 struct Preset {
@@ -39,9 +33,5 @@ struct Preset {
 };
 
 const std::vector<Preset>& all_presets();
-const Preset* find_preset(const std::string& name);  // null: unknown name
-
-// The list `presets` of docs/reference/lab_protocol.md.
-void write_presets(JsonWriter& json);
 
 }  // namespace twinarm

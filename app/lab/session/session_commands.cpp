@@ -14,6 +14,17 @@ bool is_of_start(const Change& change) {
   return change.path.starts_with("robot[") && change.path.find("].q.") != std::string::npos;
 }
 
+// By name, in a list of the message `state`. Throws InputError: there is none.
+template <class Entry>
+const Entry& named(const std::string& name, const std::vector<Entry>& all, const char* kind,
+                   const std::string& list) {
+  const auto found = std::ranges::find(all, name, &Entry::name);
+  if (found == all.end())
+    throw InputError({{"command", 0, kind, "there is no '" + name + "'",
+                       "choose one of `" + list + "` in the message state", "lab.unknown-name"}});
+  return *found;
+}
+
 }  // namespace
 
 void SessionCommands::act(const LabCommand& command) {
@@ -128,25 +139,18 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
 }
 
 void SessionCommands::open_preset(const std::string& name) {
-  const Preset* preset = find_preset(name);
-  if (!preset)
-    throw InputError({{"command", 0, "preset", "there is no '" + name + "'",
-                       "choose one of `presets` in the message state", "lab.unknown-name"}});
+  const Preset& preset = named(name, all_presets(), "preset", "presets");
   BuildRequest request;
-  request.file = find_assets() / "scenes" / preset->scene;
-  request.name = preset->name;
-  request.words = {preset->what, preset->scene, {}};
-  request.hand = preset->hand;
-  for (const std::string& text : preset->changes) put(request.changes, parse_change(text));
+  request.file = find_assets() / "scenes" / preset.scene;
+  request.name = preset.name;
+  request.words = {preset.what, preset.scene, {}};
+  request.hand = preset.hand;
+  for (const std::string& text : preset.changes) put(request.changes, parse_change(text));
   open_(std::move(request));
 }
 
 void SessionCommands::open_from_gallery(const std::string& name) {
-  const GalleryScene* scene = find_scene(gallery_, name);
-  if (!scene)
-    throw InputError({{"command", 0, "scene", "there is no '" + name + "'",
-                       "choose one of `gallery` in the message state", "lab.unknown-name"}});
-  open_(order_to_open(*scene));
+  open_(order_to_open(named(name, gallery_, "scene", "gallery")));
 }
 
 void SessionCommands::edit(const SceneEdit& edit) {

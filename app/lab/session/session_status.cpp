@@ -91,20 +91,17 @@ void StatusReporter::show(bool with_status) {
   status.time = state_.loop.run().view().time();
   status.step = state_.loop.run().prepared().run.step;
   if (with_status) status.hand = operator_status();
-  Timeline::View view = state_.timeline.view(status.at);
-  status.first = view.first;
-  status.last = view.last;
+  LabNow now;
+  static_cast<Timeline::View&>(now) = state_.timeline.view(status.at);
+  status.first = now.first;
+  status.last = now.last;
   status.variant_ends.clear();
-  if (view.frame)
-    for (const VariantFrame& variant : view.frame->variants)
+  if (now.frame)
+    for (const VariantFrame& variant : now.frame->variants)
       status.variant_ends.push_back(variant.stopped ? std::optional(variant.frame->recorded.t)
                                                     : std::nullopt);
-  LabNow now;
-  now.scene = std::move(view.scene);
   now.scene_number = status.scene;
   now.change_number = state_.change_number;
-  now.frame = std::move(view.frame);
-  now.before = std::move(view.before);
   if (with_status) now.status = std::make_shared<const LabStatus>(status);
   now.rows = rows_;
   now.input_came = shown_input_came_;

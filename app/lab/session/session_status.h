@@ -60,12 +60,9 @@ inline bool is_varied(const LabStatus& status, const Change& change) {
 }
 
 // Immutable once published.
-struct LabNow {
+struct LabNow : Timeline::View {
   std::uint64_t number = 0;  // counts publications
-  std::shared_ptr<const BuildResult> scene;
   long scene_number = 0, change_number = 0;
-  std::shared_ptr<const LabFrame> frame;   // the newest, or an earlier one that is shown
-  std::shared_ptr<const LabFrame> before;  // at the same time, of the run that the branch left
   std::shared_ptr<const LabStatus> status;
   std::shared_ptr<const std::vector<std::string>> rows;  // names of the energy balance
   std::chrono::steady_clock::time_point input_came{};    // of the newest input in the frame

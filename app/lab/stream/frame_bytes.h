@@ -56,24 +56,17 @@ class LabSnapshots {
 
 // Values of a frame by channel: those of a recorded run, of the operator input, the mouse spring
 // and the timing.
-class LabChannels {
+class LabChannels : public RunChannels {
  public:
   // `components`: LabSnapshots::components().
   LabChannels(const SimulateInput& input, const RecordingHeader& header,
               const std::vector<SceneCoupling>& components);
   // Appends channels of pairs that are in contact for the first time. True: there was one.
   bool add_pairs(const LabFrame& frame);
-  // Appends a channel that the caller fills in; returns its index.
-  std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
-                  const std::string& of) {
-    return channels_.add(name, unit, kind, of);
-  }
-  const std::vector<RunColumn>& all() const { return channels_.all(); }
   void values(const LabFrame& frame, const Snapshot& snapshot, SceneCouplings* couplings,
               std::vector<double>& values) const;
 
  private:
-  RunChannels channels_;
   std::size_t mouse_ = 0, hand_ = 0, time_ = 0;  // indices of the first ones
 };
 

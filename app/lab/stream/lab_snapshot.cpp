@@ -71,27 +71,27 @@ std::vector<Pose> LabSnapshots::poses(const LabFrame& frame) const {
 
 LabChannels::LabChannels(const SimulateInput& input, const RecordingHeader& header,
                          const std::vector<SceneCoupling>& components)
-    : channels_(input, header) {
-  channels_.add_led_joints(input.robot.coordinates, components);
-  mouse_ = channels_.add("mouse_spring", "N", "mouse_spring", "mouse");
-  hand_ = channels_.add("device/force", "N", "device", "force");
+    : RunChannels(input, header) {
+  add_led_joints(input.robot.coordinates, components);
+  mouse_ = add("mouse_spring", "N", "mouse_spring", "mouse");
+  hand_ = add("device/force", "N", "device", "force");
   for (const char* motor : {"1", "2", "3"})
-    channels_.add(std::string("device/torque") + motor, "N m", "device", "torque");
-  time_ = channels_.add("time/step", "s", "time", "step");
-  channels_.add("time/longest", "s", "time", "step");
-  channels_.add("time/speed_ratio", "1", "time", "speed_ratio");
+    add(std::string("device/torque") + motor, "N m", "device", "torque");
+  time_ = add("time/step", "s", "time", "step");
+  add("time/longest", "s", "time", "step");
+  add("time/speed_ratio", "1", "time", "speed_ratio");
 }
 
 bool LabChannels::add_pairs(const LabFrame& frame) {
   bool any = false;
   for (const RecordedContact& c : frame.recorded.contacts)
-    if (channels_.add_pair(c.a, c.b)) any = true;
+    if (add_pair(c.a, c.b)) any = true;
   return any;
 }
 
 void LabChannels::values(const LabFrame& frame, const Snapshot& snapshot, SceneCouplings* couplings,
                          std::vector<double>& values) const {
-  channels_.values(frame.recorded, snapshot, couplings, values);
+  RunChannels::values(frame.recorded, snapshot, couplings, values);
   if (frame.mouse) values[mouse_] = frame.mouse->force_W.norm();
   if (frame.hand) {
     values[hand_] = frame.hand->force_W.norm();

@@ -58,14 +58,13 @@ class MeshStore {
   const std::vector<std::string>& meshes() const { return mesh_names_; }
   const std::vector<std::string>& textures() const { return texture_names_; }
   // By name, as GET /mesh/HASH and /texture/HASH answer; null: unknown.
-  std::shared_ptr<const std::string> mesh(const std::string& name) const;
-  std::shared_ptr<const std::string> texture(const std::string& name) const;
+  std::shared_ptr<const std::string> file(const std::string& name) const;
 
  private:
-  using Files = std::map<std::string, std::shared_ptr<const std::string>>;
+  std::string keep(std::string bytes);
 
   std::vector<std::string> mesh_names_, texture_names_;
-  Files meshes_, textures_;
+  std::map<std::string, std::shared_ptr<const std::string>> files_;
 };
 
 // Of all layers, in the order of their numbers in frames.

@@ -86,15 +86,6 @@ std::string mesh_bytes(const DrawMesh& mesh) {
   return bytes;
 }
 
-// Returns its name: a hash of 128 bits in hexadecimal.
-std::string keep(std::map<std::string, std::shared_ptr<const std::string>>& files,
-                 std::string bytes) {
-  std::string name =
-      fmt::format("{:016x}{:016x}", hash_of(bytes), hash_of(bytes, 0x9ae16a3b2f90404fu));
-  files.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
-  return name;
-}
-
 }  // namespace
 
 const std::vector<std::string>& layer_names() {
@@ -130,20 +121,23 @@ std::string LabView::scene_message() const {
 bool MeshStore::take(const DrawList& list) {
   const std::size_t before = mesh_names_.size() + texture_names_.size();
   while (mesh_names_.size() < list.meshes.size())
-    mesh_names_.push_back(keep(meshes_, mesh_bytes(*list.meshes[mesh_names_.size()])));
+    mesh_names_.push_back(keep(mesh_bytes(*list.meshes[mesh_names_.size()])));
   while (texture_names_.size() < std::min(list.textures.size(), kMaxTextures))
-    texture_names_.push_back(keep(textures_, texture_file(*list.textures[texture_names_.size()])));
+    texture_names_.push_back(keep(texture_file(*list.textures[texture_names_.size()])));
   return mesh_names_.size() + texture_names_.size() > before;
 }
 
-std::shared_ptr<const std::string> MeshStore::mesh(const std::string& name) const {
-  const auto found = meshes_.find(name);
-  return found == meshes_.end() ? nullptr : found->second;
+// Returns its name: a hash of 128 bits in hexadecimal.
+std::string MeshStore::keep(std::string bytes) {
+  std::string name =
+      fmt::format("{:016x}{:016x}", hash_of(bytes), hash_of(bytes, 0x9ae16a3b2f90404fu));
+  files_.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
+  return name;
 }
 
-std::shared_ptr<const std::string> MeshStore::texture(const std::string& name) const {
-  const auto found = textures_.find(name);
-  return found == textures_.end() ? nullptr : found->second;
+std::shared_ptr<const std::string> MeshStore::file(const std::string& name) const {
+  const auto found = files_.find(name);
+  return found == files_.end() ? nullptr : found->second;
 }
 
 }  // namespace twinarm

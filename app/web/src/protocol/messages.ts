@@ -138,7 +138,7 @@ export interface StateMessage {
   variants: Variants | null;
   speed_ratio: number;
   step: number;
-  step_us: number;
+  step_us: number; // processor time of a step
   input: InputState;
   parameters: LabParameter[];
   presets: { name: string; what: string }[];

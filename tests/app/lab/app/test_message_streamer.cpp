@@ -29,7 +29,7 @@ struct Streamed {
   explicit Streamed(const std::string& text)
       : session(built_from(text), gallery),
         streamer(session, clients, gallery,
-                 [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool) {
+                 [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes) {
                    if (client == 1)
                      take(channel, *bytes);
                    else

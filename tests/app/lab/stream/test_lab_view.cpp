@@ -41,7 +41,7 @@ TEST_CASE(
   CHECK(store.meshes()[0] == store.meshes()[2]);
   CHECK(store.meshes()[0] != store.meshes()[1]);
   CHECK(store.meshes()[0].find_first_not_of("0123456789abcdef") == std::string::npos);
-  const auto bytes = store.mesh(store.meshes()[0]);
+  const auto bytes = store.file(store.meshes()[0]);
   REQUIRE(bytes);
   REQUIRE(bytes->size() == 16 + 3 * 12 + 3 * 12 + 3 * 4);
   CHECK(value_at<std::uint32_t>(*bytes, 0) == 3);
@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(value_at<float>(*bytes, 16 + 32) == 0.5f);  // z of the last
   CHECK(value_at<float>(*bytes, 16 + 36 + 8) == 1);
   CHECK(value_at<std::uint32_t>(*bytes, 16 + 72 + 8) == 2);
-  CHECK_FALSE(store.mesh("no such"));
+  CHECK_FALSE(store.file("no such"));
 }
 
 TEST_CASE("lab view: new channels are appended, and the revision increases") {
@@ -71,7 +71,7 @@ TEST_CASE("lab view: new channels are appended, and the revision increases") {
   after.pop_back();
   CHECK(after == before);
   for (const std::string& hash : texts_in(watched.view->scene_message(), "meshes", ""))
-    CHECK(watched.view->store().mesh(hash));
+    CHECK(watched.view->store().file(hash));
 }
 
 TEST_CASE("lab view: scales of arrows grow by one round step a frame, and never shrink") {
