@@ -15,7 +15,6 @@
 #include "app/lab/session/lab_session.h"
 #include "app/support/program.h"
 #include "app/support/progress.h"
-#include "app/web/web_bundle.h"
 #include "collision/mesh_files/assimp_reader.h"
 #include "collision/sandbox/fork_server.h"
 #include "collision/sandbox/isolated_parser.h"
@@ -143,14 +142,12 @@ class Lab {
         is_private_(is_loopback(options.listen)),
         session_(first_scene(options, gallery_), gallery_,
                  static_cast<std::size_t>(options.history) << 20),
-        streamer_(
-            session_, clients_, gallery_,
-            [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes) {
-              server_->send(client, channel, std::move(bytes),
-                            channel == MessageStreamer::frame_channel);
-            }),
-        routes_(session_, streamer_, clients_, gallery_, std::string(web_bundle().lab),
-                std::string(web_bundle().missing)) {
+        streamer_(session_, clients_, gallery_,
+                  [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes) {
+                    server_->send(client, channel, std::move(bytes),
+                                  channel == MessageStreamer::frame_channel);
+                  }),
+        routes_(session_, streamer_, clients_, gallery_) {
     ServerOptions server;
     server.address = options.listen;
     server.port = static_cast<std::uint16_t>(options.port);

@@ -4,6 +4,7 @@
 
 #include "app/page/pages.h"
 #include "app/render/gl/painter.h"
+#include "app/web/web_bundle.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
 #include "solver/support/number_text.h"
@@ -77,14 +78,12 @@ HttpReply gallery_picture(const std::vector<GalleryScene>& gallery, const std::s
 }  // namespace
 
 LabRoutes::LabRoutes(LabSession& session, MessageStreamer& streamer, const Clients& clients,
-                     const std::vector<GalleryScene>& gallery, std::string page,
-                     std::string missing)
+                     const std::vector<GalleryScene>& gallery)
     : session_(session),
       streamer_(streamer),
       clients_(clients),
       gallery_(gallery),
-      page_(shared_bytes(std::move(page))),
-      missing_(std::move(missing)),
+      page_(shared_bytes(std::string(web_bundle().lab))),
       uploads_(files_.folder() / "uploads"),
       tasks_([this](const std::string& why) { session_.note("error", why); }) {}
 
@@ -92,7 +91,7 @@ void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
   if (request.method == "POST")
     return request.path == "/open" ? answer_open(request, answer) : answer(not_found());
   if (request.path == "/")
-    return answer(page_->empty() ? reply_of(503, missing_)
+    return answer(page_->empty() ? reply_of(503, std::string(web_bundle().missing))
                                  : file_of("text/html; charset=utf-8", page_));
   if (const std::string name = after(request.path, "/gallery/"); !name.empty())
     return answer(gallery_picture(gallery_, name));

@@ -15,10 +15,9 @@ namespace twinarm {
 
 class LabRoutes {
  public:
-  // All must outlive it. `page`: empty if the program was built without its pages; `missing` is
-  // then the answer.
+  // All must outlive it.
   LabRoutes(LabSession& session, MessageStreamer& streamer, const Clients& clients,
-            const std::vector<GalleryScene>& gallery, std::string page, std::string missing);
+            const std::vector<GalleryScene>& gallery);
 
   void end() { tasks_.end(); }
   // From the server's thread. Longer work is answered later: by the streamer's thread if it needs
@@ -38,8 +37,7 @@ class LabRoutes {
   MessageStreamer& streamer_;
   const Clients& clients_;
   const std::vector<GalleryScene>& gallery_;
-  Bytes page_;
-  std::string missing_;
+  Bytes page_;  // empty: the program was built without its pages
   TemporaryFiles files_{"twinarm-lab"};
   UploadFolder uploads_;  // used by the tasks' thread only
   TaskQueue tasks_;

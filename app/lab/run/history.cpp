@@ -147,9 +147,9 @@ std::string LabHistory::operator_log() const {
   return log;
 }
 
-LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
-                                   const std::vector<std::size_t>& driven,
-                                   const std::filesystem::path& file) const {
+void LabHistory::save(const LabScene& scene, const LabNames& names,
+                      const std::vector<std::size_t>& driven,
+                      const std::filesystem::path& file) const {
   if (empty())
     throw InputError({{file.string(), 0, "save", "the run has no frames yet", "let it run",
                        "lab.nothing-saved"}});
@@ -160,7 +160,6 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
   header.duration = newest()->recorded.t + 0.5 * header.step;
   header.run.duration = header.duration;
   RecordingWriter writer(file, std::move(header), /*keyframe_every=*/1);
-  Saved saved;
   for (const Frame& one : frames_) {
     if (one->recorded.step < first) continue;
     RecordedFrame frame = one->recorded;
@@ -168,12 +167,9 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
     for (std::uint32_t& row : frame.rows) row = writer.number_of(kName, names.rows[row]);
     for (std::uint32_t& row : frame.momentum_rows)
       row = writer.number_of(kMomentumName, names.momentum_rows[row]);
-    if (saved.frames++ == 0) saved.from = frame.t;
-    saved.to = frame.t;
     writer.write(frame);
   }
   writer.finish("saved");
-  return saved;
 }
 
 }  // namespace twinarm

@@ -117,15 +117,11 @@ class LabHistory {
   // Starts a branch at frame n: moves everything after it, and a copy of frame n, to the result.
   LabHistory cut(std::size_t n);
 
-  struct Saved {
-    std::size_t frames = 0;
-    double from = 0, to = 0;  // [s]
-  };
   // Saves the frames since the last event that a recording's header cannot describe (a changed
   // parameter, another input source, a mouse spring); `twinarm replay` repeats them bit for bit.
   // `driven`: InputOverride::couplings(). Throws InputError: file not writable, or empty history.
-  Saved save(const LabScene& scene, const LabNames& names, const std::vector<std::size_t>& driven,
-             const std::filesystem::path& file) const;
+  void save(const LabScene& scene, const LabNames& names, const std::vector<std::size_t>& driven,
+            const std::filesystem::path& file) const;
 
  private:
   struct Segment {

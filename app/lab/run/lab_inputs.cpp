@@ -51,35 +51,21 @@ std::string OperatorInput::description() const {
   return source_ == Source::joints ? "joint sliders" : "scene motion";
 }
 
-void OperatorInput::tip(const Vector3& goal_W, double stamp) {
-  if (!goal_W.allFinite()) return;
-  tip_ = goal_W;
-  stamp_ = stamp;
-}
-
-void OperatorInput::joint(std::size_t driven, double value, double stamp) {
+void OperatorInput::joint(std::size_t driven, double value) {
   constexpr std::size_t kMax = 64;
   if (driven >= kMax || !std::isfinite(value)) return;
   if (joints_.size() <= driven) joints_.resize(driven + 1);
   joints_[driven] = value;
-  stamp_ = stamp;
 }
 
-void OperatorInput::rotate_stylus(double yaw, double pitch, double roll, double stamp) {
-  if (gestures_) gestures_->rotate_stylus({yaw, pitch, roll});
-  stamp_ = stamp;
-}
-
-void OperatorInput::axes(const std::array<double, 6>& rates, double stamp) {
+void OperatorInput::axes(const std::array<double, 6>& rates) {
   tip_.reset();  // they start from the present position of the stylus
   if (gestures_) gestures_->axes(rates);
-  stamp_ = stamp;
 }
 
-void OperatorInput::button(std::size_t index, bool down, double stamp) {
+void OperatorInput::button(std::size_t index, bool down) {
   if (index == 0) gripper_ = down;
   if (gestures_) gestures_->button(index, down);
-  stamp_ = stamp;
 }
 
 void OperatorInput::release() {

@@ -50,16 +50,20 @@ class OperatorInput {
   std::string description() const;
   const std::string& spec() const { return spec_; }
 
-  // Input of a client. `stamp` is returned in frames.
-  void tip(const Vector3& goal_W, double stamp);  // goal of the driven point
-  void joint(std::size_t driven, double value, double stamp);
-  void rotate_stylus(double yaw, double pitch, double roll, double stamp);  // [rad]
-  void axes(const std::array<double, 6>& rates, double stamp);              // as DesktopInput::axes
-  void button(std::size_t index, bool down, double stamp);                  // 0: gripper, 1: clutch
+  // Input of a client.
+  void tip(const Vector3& goal_W) {  // goal of the driven point
+    if (goal_W.allFinite()) tip_ = goal_W;
+  }
+  void joint(std::size_t driven, double value);
+  void rotate_stylus(const Vector3& angles) {  // yaw, pitch, roll [rad]
+    if (gestures_) gestures_->rotate_stylus(angles);
+  }
+  void axes(const std::array<double, 6>& rates);  // as DesktopInput::axes
+  void button(std::size_t index, bool down);      // 0: gripper, 1: clutch
   void release();  // keys, axes and clutch; target robot and gripper stay as they are
 
   unsigned long revision() const { return revision_; }  // counts calls of choose()
-  double stamp() const { return stamp_; }
+  double stamp() const { return stamp_; }               // of the newest input, returned in frames
   void set_stamp(double stamp) { stamp_ = stamp; }
   DesktopInput* gestures() const { return gestures_.get(); }
   const std::optional<Vector3>& tip_goal() const { return tip_; }

@@ -123,9 +123,8 @@ bool LabRun::step(const LabInput* replayed) {
   return !stopped_;
 }
 
-bool LabRun::drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {
+bool LabRun::drag(int body, const Vector3& p_L, const Vector3& goal_W) {
   if (!goal_W.allFinite()) return false;
-  operator_.set_stamp(stamp);
   if (mouse_ && mouse_->body == body && mouse_->p_L == p_L)
     mouse_->goal_W = goal_W;
   else

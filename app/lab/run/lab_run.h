@@ -31,7 +31,7 @@ class LabRun {
 
   // Mouse spring from a point of a body (link axes) to a goal in the world; a second call with the
   // same point moves the goal. False: no force moves the body.
-  bool drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp);
+  bool drag(int body, const Vector3& p_L, const Vector3& goal_W);
   void release_mouse() { mouse_.reset(); }
 
   // With energy balance, checkpoint and hash; new rows are added to `names`.

@@ -72,7 +72,6 @@ void SessionCommands::act(const LabCommand& command) {
 
 void SessionCommands::act_on_input(const LabCommand& command) {
   using Do = LabCommand::Do;
-  const double stamp = command.stamp;
   const auto index = static_cast<std::size_t>(command.count);
   if (command.what == Do::release) {
     s_.hand.release();
@@ -81,23 +80,24 @@ void SessionCommands::act_on_input(const LabCommand& command) {
   s_.loop.repeat_inputs(false);  // new input takes precedence over repeated input
   if (command.what == Do::input) return choose_source(command.name, command.spec);
   s_.input_came = command.came;
+  s_.hand.set_stamp(command.stamp);
   switch (command.what) {
     case Do::drag_stylus:
       switch_source(OperatorInput::Source::drag);
-      return s_.hand.tip(command.goal, stamp);
+      return s_.hand.tip(command.goal);
     case Do::joint:
       switch_source(OperatorInput::Source::joints);
-      return s_.hand.joint(index, command.value, stamp);
+      return s_.hand.joint(index, command.value);
     case Do::rotate_stylus:
       switch_source(OperatorInput::Source::drag);
-      return s_.hand.rotate_stylus(command.point.x(), command.point.y(), command.point.z(), stamp);
+      return s_.hand.rotate_stylus(command.point);
     case Do::axes:
       switch_source(OperatorInput::Source::drag);
-      return s_.hand.axes(command.rates, stamp);
+      return s_.hand.axes(command.rates);
     case Do::button:
-      return s_.hand.button(index, command.on, stamp);
+      return s_.hand.button(index, command.on);
     case Do::drag_body:
-      if (!s_.loop.run().drag(static_cast<int>(command.count), command.point, command.goal, stamp))
+      if (!s_.loop.run().drag(static_cast<int>(command.count), command.point, command.goal))
         s_.inbox.note("note", "the body is fixed or has prescribed motion: no force moves it");
       return;
     default:

@@ -17,22 +17,14 @@ constexpr std::uint16_t kNoBody = 65535;
 constexpr std::size_t kPose = 7;      // numbers of a pose
 constexpr double kMaxDistance = 1e9;  // [m]
 
-class Block {
- public:
-  template <class... Values>
-  void put(Values... values) {
-    (bytes_.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
-  }
-  template <class... Values>
-  void put_all(const Values&... values) {  // in this order
-    (append_array(bytes_, values.data(), values.size() * sizeof(*values.data())), ...);
-  }
-  void reserve(std::size_t size) { bytes_.reserve(size); }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-};
+template <class... Values>
+void put(std::string& bytes, Values... values) {
+  (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+}
+template <class... Arrays>
+void put_all(std::string& bytes, const Arrays&... arrays) {  // in this order
+  (append_array(bytes, arrays.data(), arrays.size() * sizeof(*arrays.data())), ...);
+}
 
 std::uint32_t count_of(std::size_t n) {
   return static_cast<std::uint32_t>(n);
@@ -97,34 +89,33 @@ void put_poses(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end
 }
 
 std::string frame_bytes(const FrameColumns& frame) {
-  Block block;
-  block.reserve(256 + 8 * (frame.channels.size() + frame.works.size()) + 48 * frame.body.size() +
+  std::string bytes;
+  bytes.reserve(256 + 8 * (frame.channels.size() + frame.works.size()) + 48 * frame.body.size() +
                 20 * frame.text_end.size() + frame.text.size() + 8 * frame.first.size() +
                 8 * frame.link.size());
-  block.put(kFrame, frame.scene, frame.time, frame.stamp, frame.age, frame.step, frame.number,
-            frame.flags);
+  put(bytes, kFrame, frame.scene, frame.time, frame.stamp, frame.age, frame.step, frame.number,
+      frame.flags);
   for (const std::size_t count :
        {frame.channels.size(), frame.works.size(), frame.first.size() - 1, frame.body.size(),
         frame.text_end.size(), frame.text.size(), frame.link.size() / kPose, std::size_t{0}})
-    block.put(count_of(count));
+    put(bytes, count_of(count));
   const InstanceColumns& instances = frame.instances;
-  block.put_all(frame.channels, frame.works, frame.link, frame.target, instances.position,
-                instances.scale, instances.turn, frame.labels.position, frame.labels.offset,
-                frame.text_end, frame.first, frame.first_label, instances.mesh, frame.body,
-                instances.color, instances.flags, instances.shininess, instances.texture,
-                frame.text);
-  return block.take();
+  put_all(bytes, frame.channels, frame.works, frame.link, frame.target, instances.position,
+          instances.scale, instances.turn, frame.labels.position, frame.labels.offset,
+          frame.text_end, frame.first, frame.first_label, instances.mesh, frame.body,
+          instances.color, instances.flags, instances.shininess, instances.texture, frame.text);
+  return bytes;
 }
 
 std::string history_bytes(const HistoryColumns& history) {
-  Block block;
-  block.reserve(32 + 8 * (history.time.size() + history.channels.size() + history.works.size()));
-  block.put(kHistory);
+  std::string bytes;
+  bytes.reserve(32 + 8 * (history.time.size() + history.channels.size() + history.works.size()));
+  put(bytes, kHistory);
   for (const std::uint32_t number : {history.scene, count_of(history.time.size()),
                                      history.channel_count, history.row_count, std::uint32_t{0}})
-    block.put(number);
-  block.put_all(history.time, history.channels, history.works);
-  return block.take();
+    put(bytes, number);
+  put_all(bytes, history.time, history.channels, history.works);
+  return bytes;
 }
 
 VariantViews::VariantViews(ViewVariants variants, const SimulateInput& input, LabChannels& channels)

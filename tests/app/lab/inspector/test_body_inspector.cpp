@@ -118,7 +118,7 @@ TEST_CASE("inspector: operator motion continues at its rate, and the mouse sprin
   OperatorInput hand;
   LabRun run(scene.plan(), hand);
   hand.choose(OperatorInput::Source::joints);
-  hand.joint(0, 2.5, 1);  // farther than it gets
+  hand.joint(0, 2.5);  // farther than it gets
   for (int n = 0; n < 100; ++n) REQUIRE(run.step());
   LabNames names;
   const LabFrame frame = run.frame(names);

@@ -132,7 +132,7 @@ TEST_CASE("lab run: the target robot never jumps and reaches its goal, for every
   CHECK(!s.run->input_override().is_active());
   s.hand.choose(OperatorInput::Source::drag);
   const Vector3 goal(0.35, 0.4, 0.4);
-  run(3000, [&](long n) { s.hand.tip(goal, static_cast<double>(n)); });
+  run(3000, [&](long) { s.hand.tip(goal); });
   const auto tip = *s.run->input_override().tip();
   const auto tip_now = [&] {
     return s.run->prepared().input.couplings->kvr(0).end().k.position(tip.first, tip.second);
@@ -147,8 +147,8 @@ TEST_CASE("lab run: the target robot never jumps and reaches its goal, for every
   run(300, nothing);
   CHECK((tip_now() - released).norm() < 0.01);
   s.hand.choose(OperatorInput::Source::joints);
-  s.hand.joint(0, -0.6, 1);
-  s.hand.joint(2, 0.3, 2);
+  s.hand.joint(0, -0.6);
+  s.hand.joint(2, 0.3);
   run(2000, nothing);
   CHECK(s.run->input_override().q()[0] == doctest::Approx(-0.6));
   CHECK(s.run->input_override().q()[2] == doctest::Approx(0.3));
@@ -167,7 +167,7 @@ TEST_CASE("lab run: a branch with another step repeats the operator's motion, an
   s.hand.choose(OperatorInput::Source::drag);
   s.step(16);
   for (long n = 0; n < 800; ++n) {
-    s.hand.tip({0.35, 0.4, 0.4}, 0);
+    s.hand.tip({0.35, 0.4, 0.4});
     s.step(1);
   }
   s.hand.release();
@@ -208,8 +208,8 @@ TEST_CASE("lab run: a frame between the choice of a source and the next step is 
 TEST_CASE("lab run: the gripper keeps its state when keys are released or the device changes") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
-  s.hand.button(0, true, 1);
-  s.hand.axes({1, 0, 0, 0, 0, 0}, 1);
+  s.hand.button(0, true);
+  s.hand.axes({1, 0, 0, 0, 0, 0});
   s.step(20);
   CHECK(s.run->frame(s.names).hand->gripper_closed);
   s.hand.release();
@@ -218,7 +218,7 @@ TEST_CASE("lab run: the gripper keeps its state when keys are released or the de
   s.hand.choose(OperatorInput::Source::drag);
   s.step(20);
   CHECK(s.run->frame(s.names).hand->gripper_closed);
-  s.hand.button(0, false, 2);
+  s.hand.button(0, false);
   s.step(20);
   CHECK_FALSE(s.run->frame(s.names).hand->gripper_closed);
 }
@@ -226,7 +226,8 @@ TEST_CASE("lab run: the gripper keeps its state when keys are released or the de
 TEST_CASE("lab run: a body on the mouse spring is a damped oscillator; both balances close") {
   Session s(kFreeBox);
   const Vector3 goal(0.1, -0.05, 1.2);
-  REQUIRE(s.run->drag(1, Vector3::Zero(), goal, 7));
+  s.hand.set_stamp(7);
+  REQUIRE(s.run->drag(1, Vector3::Zero(), goal));
   const double m = 2, h = 0.001, k = m * MouseSpring::kOmega * MouseSpring::kOmega,
                b = 2 * m * MouseSpring::kOmega;
   Vector3 x(0, 0, 1), v = Vector3::Zero();
@@ -261,15 +262,15 @@ TEST_CASE(
     "lab run: a mouse spring on a link loads the base through its joints; its force is limited") {
   Session s(arm_with("device"));
   const Vector3 goal(0.3, 0.6, 0.5);
-  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), goal, 1));
+  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), goal));
   s.step(2000);
   const auto momenta = s.run->view().momentum();
   CHECK(momentum_of(momenta, "mouse").linear.norm() > 1);
   // The residual is small.
   CHECK(momentum_of(momenta, "numerical").linear.norm() <
         1e-3 * momentum_of(momenta, "mouse").linear.norm());
-  CHECK(!s.run->drag(0, Vector3::Zero(), goal, 1));  // the world does not move
-  CHECK(!s.run->drag(99, Vector3::Zero(), goal, 1));
+  CHECK(!s.run->drag(0, Vector3::Zero(), goal));  // the world does not move
+  CHECK(!s.run->drag(99, Vector3::Zero(), goal));
 }
 
 TEST_CASE("lab run: invalid changes are refused with all faults, and the run continues") {

@@ -13,7 +13,7 @@ const std::string kSpring = "coupling.one.";
 RemedyTrial stopped_run() {
   Session s(arm_with("paper"));
   s.hand.choose(OperatorInput::Source::joints);
-  s.hand.joint(0, 0.3, 1);
+  s.hand.joint(0, 0.3);
   s.step(320);
   RemedyTrial trial;
   trial.changes = {{kSpring + "discretization", "explicit"}, {kSpring + "stiffness", "3e7"}};

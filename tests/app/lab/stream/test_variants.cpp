@@ -132,7 +132,7 @@ TEST_CASE("variants: with shorter steps a moving target is extrapolated") {
   constexpr double h = 0.004, begin = 0.7;
   SideBySide s(scene, {"step", {"0.004", "0.002", "0.001"}, {}});
   s.hand.choose(OperatorInput::Source::joints);
-  s.hand.joint(0, 100, 0);
+  s.hand.joint(0, 100);
   s.step(16);
   for (std::size_t variant = 0; variant < 3; ++variant) {
     const LabFrame& own = variant == 0 ? *s.history.newest() : s.variant(variant);
@@ -150,9 +150,9 @@ TEST_CASE("variants: operator and mouse input act on all as on the first") {
   const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
       s.run->input_override().tip()->first, s.run->input_override().tip()->second);
   for (int n = 0; n < 40; ++n) {
-    s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
+    s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0));
     if (n == 20)
-      REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
+      REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip));
     if (n == 30) s.run->release_mouse();
     s.step(16);
     check_same(s.variant(1), *s.history.newest());
@@ -187,7 +187,7 @@ TEST_CASE("variants: a branch repeats all of them, the diverged one too") {
   SideBySide s(scene, kOneDiverges);
   s.hand.choose(OperatorInput::Source::joints);
   for (int n = 0; n < 40; ++n) {
-    s.hand.joint(0, 0.3 * std::sin(0.2 * n), n);
+    s.hand.joint(0, 0.3 * std::sin(0.2 * n));
     s.step(16);
   }
   REQUIRE(s.history.newest()->variants[0].stopped);
