@@ -20,6 +20,13 @@ std::size_t width_of(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
+// The right part at the end of the line, or on its own line if it does not fit.
+std::string spread(const std::string& left, std::string_view right) {
+  const bool fits = left.size() + 2 + right.size() <= kWidth;
+  return fmt::format("{}{:>{}}", fits ? left : left + "\n", right,
+                     fits ? kWidth - left.size() : kWidth);
+}
+
 }  // namespace
 
 std::string TextTable::str() const {
@@ -90,21 +97,14 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 void Sheet::title(std::string_view text, std::string_view note) {
   const std::string rule(kWidth, '=');
   line("\n" + rule);
-  if (text.size() + 2 + note.size() <= kWidth)
-    line(fmt::format("{}{:>{}}", text, note, kWidth - text.size()));
-  else
-    line(fmt::format("{}\n{:>{}}", text, note, kWidth));
+  line(spread(std::string(text), note));
   line(rule);
 }
 
 void Sheet::heading(std::string_view equation, std::string_view meaning, std::string_view unit) {
   const std::string note =
       unit.empty() ? std::string(meaning) : fmt::format("{} [{}]", meaning, unit);
-  const std::size_t used = 2 + equation.size();
-  if (used + 2 + note.size() <= kWidth)
-    line(fmt::format("  {}{:>{}}", equation, note, kWidth - used));
-  else
-    line(fmt::format("  {}\n{:>{}}", equation, note, kWidth));
+  line(spread("  " + std::string(equation), note));
 }
 
 void Sheet::row(std::string_view label, const Vector6& six, const Vector6& size) {

@@ -1,8 +1,10 @@
 #include "app/data/value.h"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 #include "collision/import/toml/toml_file.h"
@@ -87,12 +89,11 @@ Value value_of_node(const toml::node& node) {
 std::string quoted_toml(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
-    constexpr const char* kHex = "0123456789abcdef";
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
       quoted += std::string("\\") + c;
     else if (code < 0x20 || code == 0x7f)
-      quoted += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
+      quoted += fmt::format("\\u{:04x}", code);
     else
       quoted += c;
   }
@@ -100,12 +101,10 @@ std::string quoted_toml(const std::string& text) {
 }
 
 std::string toml_key(const std::string& key) {
-  const auto is_bare = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
+  const auto is_bare = [](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '-';
   };
-  const bool bare = !key.empty() && std::ranges::all_of(key, is_bare);
-  return bare ? key : quoted_toml(key);
+  return !key.empty() && std::ranges::all_of(key, is_bare) ? key : quoted_toml(key);
 }
 
 std::string inline_toml(const Value& value) {

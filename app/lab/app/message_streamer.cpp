@@ -11,21 +11,13 @@
 namespace twinarm {
 namespace {
 
-constexpr double kInspectEvery = 0.2, kInspectPaused = 0.05, kLimitsEvery = 0.4,
-                 kIdle = 0.1;                 // [s]
-constexpr double kFailureEvery = 5;           // [s]
+constexpr double kIdle = 0.1;  // [s]
+// At most so many a second.
+constexpr double kInspections = 5, kInspectionsPaused = 20, kLimits = 2.5, kFailures = 0.2;
 constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and to many
 constexpr std::size_t kManyClients = 2;
 // Factor of the rate, for frames that the step does not permit to be evenly spaced.
 constexpr double kRateMargin = 1.05;
-
-// Whether the interval has passed since `last`, which is then set to now.
-bool is_due(std::chrono::steady_clock::time_point& last, double interval) {
-  const auto now = std::chrono::steady_clock::now();
-  if (as_seconds(now - last) < interval) return false;
-  last = now;
-  return true;
-}
 
 }  // namespace
 
@@ -71,11 +63,11 @@ void MessageStreamer::work(const std::stop_token& stop) {
   }
 }
 
-// A failure may repeat with each frame: it is shown every kFailureEvery.
+// A failure may repeat with each frame.
 void MessageStreamer::show_failure(const std::string& why) {
-  if (why == failure_ && !is_due(last_failure_, kFailureEvery)) return;
+  const bool is_due = failures_.passes(Clock::now(), kFailures, 1);
+  if (why == failure_ && !is_due) return;
   failure_ = why;
-  last_failure_ = Clock::now();
   session_.note("error", "the lab cannot draw this: " + why);
 }
 
@@ -126,7 +118,7 @@ void MessageStreamer::take_scene(const LabNow& now) {
   set_initial_values(unchanged_, parameters_);
   std::erase_if(parameters_,
                 [&](const LabParameter& parameter) { return parameter.path == variants.path; });
-  last_limits_ = {};
+  limits_ = {};
   scene_number_ = now.scene_number;
   change_number_ = now.change_number;
   send_scene();
@@ -139,7 +131,7 @@ void MessageStreamer::send_scene() {
 }
 
 void MessageStreamer::update_limits(const LabNow& now) {
-  if (!now.frame || !is_due(last_limits_, kLimitsEvery)) return;
+  if (!now.frame || !limits_.passes(Clock::now(), kLimits, 1)) return;
   SimulatePlan& plan = now.scene->parameters->prepared;
   // The pose of a run that has diverged is meaningless: then as its post-mortem, at the start pose.
   const bool is_start = now.status->failure && plan.input.scene;
@@ -199,7 +191,8 @@ void MessageStreamer::send_inspections(const LabNow& now) {
   for (const auto& [client, body] : clients_.inspected())
     wanted[client] = {now.scene_number, now.number, body, paused};
   if (wanted == sent_inspections_ || !now.frame) return;
-  if (!is_due(last_inspection_, paused ? kInspectPaused : kInspectEvery)) return;
+  const double per_second = paused ? kInspectionsPaused : kInspections;
+  if (!inspections_.passes(Clock::now(), per_second, 1)) return;
   if (!inspector_)
     inspector_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared));
   for (const auto& [client, inspection] : wanted) {

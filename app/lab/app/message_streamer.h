@@ -95,9 +95,8 @@ class MessageStreamer {
     bool operator==(const LastSentFrame&) const = default;
   };
   LastSentFrame sent_frame_;
-  RateLimiter frames_;
+  RateLimiter frames_, inspections_, limits_, failures_;
   Bytes last_frame_;
-  Clock::time_point last_inspection_{}, last_limits_{}, last_failure_{};
   std::string failure_;  // shown last
   std::jthread thread_;
 };

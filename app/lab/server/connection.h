@@ -102,7 +102,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void serve();
   void answer(std::uint64_t request, HttpReply reply);
   void refuse(int status, const std::string& why);
-  void write(const ResponseHead& head, Bytes body);
+  void write(const HttpReply& reply, const ResponseHead& head, bool has_body = true);
   void drain_and_close();
   bool has_token(std::string_view target);
   bool is_within_rate();  // counts one message or request

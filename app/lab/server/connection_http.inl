@@ -124,18 +124,14 @@ void Connection::answer(std::uint64_t request_number, HttpReply reply) {
   is_waiting_ = false;
   const Request& request = parser_->get();
   if (!reply.body) reply.body = shared_bytes("");
-  ResponseHead head;
-  head.status = reply.status;
-  head.type = reply.type;
-  head.file_name = reply.file_name;
-  head.keeps_alive = request.keep_alive();
+  ResponseHead head{.keeps_alive = request.keep_alive()};
   if (gives_cookie_) head.cookie = core_.cookie + "=" + core_.options.token;
   if (reply.lasts && reply.status == 200) {
     // The path contains the hash of the content: it serves as the tag.
     const std::string_view target = view(request.target());
     head.etag = '"' + std::string(target.substr(0, target.find_first_of("?\"\\"))) + '"';
     if (view(request[http::field::if_none_match]) == head.etag) {
-      head.status = 304;
+      reply.status = 304;
       reply.body = shared_bytes("");
     }
   }
@@ -144,22 +140,17 @@ void Connection::answer(std::uint64_t request_number, HttpReply reply) {
     head.is_packed = true;
     reply.body = core_.packed(reply.body);
   }
-  head.size = reply.body->size();
-  write(head, request.method() == http::verb::head ? nullptr : reply.body);
+  write(reply, head, request.method() != http::verb::head);
 }
 
 void Connection::refuse(int status, const std::string& why) {
-  const Bytes body = shared_bytes("twinarm lab: " + why + "\n");
-  write({.status = status,
-         .type = "text/plain; charset=utf-8",
-         .size = body->size(),
-         .keeps_alive = false},
-        body);
+  write({.status = status, .body = shared_bytes("twinarm lab: " + why + "\n")},
+        {.keeps_alive = false});
 }
 
-void Connection::write(const ResponseHead& head, Bytes body) {
-  head_ = to_string(head);
-  body_ = body ? std::move(body) : shared_bytes("");
+void Connection::write(const HttpReply& reply, const ResponseHead& head, bool has_body) {
+  head_ = reply_head(reply, head);
+  body_ = has_body ? reply.body : shared_bytes("");
   deadline_ = Clock::now() + core_.timeout(0.25) +
               std::chrono::milliseconds(
                   static_cast<long>(1e3 * static_cast<double>(body_->size()) / kSlowestDownload));

@@ -114,25 +114,25 @@ bool HostNames::has(std::string_view host) const {
   return std::ranges::find(names_, host) != names_.end() || (is_any_ && is_numeric(host));
 }
 
-std::string to_string(const ResponseHead& head) {
+std::string reply_head(const HttpReply& reply, const ResponseHead& head) {
   const auto reason = boost::beast::http::obsolete_reason(
-      boost::beast::http::int_to_status(static_cast<unsigned>(head.status)));
-  std::string text = "HTTP/1.1 " + std::to_string(head.status) + ' ';
+      boost::beast::http::int_to_status(static_cast<unsigned>(reply.status)));
+  std::string text = "HTTP/1.1 " + std::to_string(reply.status) + ' ';
   text.append(reason.data(), reason.size());
-  if (head.status != 304) {
-    text += "\r\nContent-Type: " + header_text(head.type);
-    text += "\r\nContent-Length: " + std::to_string(head.size);
+  if (reply.status != 304) {
+    text += "\r\nContent-Type: " + header_text(reply.type);
+    text += "\r\nContent-Length: " + std::to_string(reply.body->size());
   }
   if (head.is_packed) text += "\r\nContent-Encoding: gzip";
   if (head.etag.empty())
     text += "\r\nCache-Control: no-store";
   else
     text += "\r\nCache-Control: private, max-age=31536000, immutable\r\nETag: " + head.etag;
-  if (!head.file_name.empty())
-    text += "\r\nContent-Disposition: attachment; filename=\"" + header_text(head.file_name) + '"';
+  if (!reply.file_name.empty())
+    text += "\r\nContent-Disposition: attachment; filename=\"" + header_text(reply.file_name) + '"';
   if (!head.cookie.empty())
     text += "\r\nSet-Cookie: " + header_text(head.cookie) + "; Path=/; HttpOnly; SameSite=Strict";
-  if (head.status == 405) text += "\r\nAllow: GET, HEAD, POST";
+  if (reply.status == 405) text += "\r\nAllow: GET, HEAD, POST";
   if (!head.keeps_alive) text += "\r\nConnection: close";
   return text +
          "\r\nVary: Accept-Encoding, Cookie\r\nX-Content-Type-Options: nosniff"

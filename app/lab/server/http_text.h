@@ -35,17 +35,14 @@ class HostNames {
   bool is_any_;
 };
 
+// Header fields of a reply besides its own.
 struct ResponseHead {
-  int status = 200;
-  std::string_view type = {};
-  std::size_t size = 0;
-  std::string etag = {};  // quoted; empty: the content may change
-  std::string_view file_name = {};
+  std::string etag = {};    // quoted; empty: the content may change
   std::string cookie = {};  // "name=value"
   bool is_packed = false;   // gzip
   bool keeps_alive = true;
 };
-std::string to_string(const ResponseHead& head);
+std::string reply_head(const HttpReply& reply, const ResponseHead& head);
 
 // Text of 1 kB to 8 MB.
 bool is_packable(const HttpReply& reply);
