@@ -123,7 +123,7 @@ void open_browser(const std::string& url) {
 // Rejects devices that open files or sockets here: with --listen the page may be on another
 // machine.
 void check_shared_device(const LabCommand& command) {
-  if (command.what != LabCommand::Do::input || command.name != "device") return;
+  if (command.what != "input" || command.name != "device") return;
   if (stays_inside(command.spec)) return;
   throw InputError({{"command", 0, "hand, spec",
                      "'" + command.spec +
@@ -182,11 +182,8 @@ class Lab {
       streamer_.look_again();
     };
     handlers.closed = [this](ClientId client) {
-      if (clients_.has_control(client)) {  // releases what the closed page was dragging
-        LabCommand drop;
-        drop.what = LabCommand::Do::release;
-        session_.push(std::move(drop));
-      }
+      // Releases what the closed page was dragging.
+      if (clients_.has_control(client)) session_.push(LabCommand());
       clients_.closed(client);
       session_.shown().wake();
     };
@@ -202,25 +199,20 @@ class Lab {
       if (!is_private_) check_shared_device(command);
       if (!is_private_ && needs_control(command.what))
         log(client, text_of_command(text), is_movement(command.what));
-      switch (command.what) {
-        case LabCommand::Do::layers:
-          clients_.want_layers(client, std::move(command.names));
-          break;
-        case LabCommand::Do::inspect:
-          clients_.want_inspection(client,
-                                   command.on ? std::optional<long>(command.count) : std::nullopt);
-          break;
-        case LabCommand::Do::request_control:
-          clients_.take(client);
-          break;
-        case LabCommand::Do::grant_control:
-          if (!clients_.give(client, static_cast<ClientId>(command.count)))
-            note(client, "warning", "only the client in control grants it, to a connected client");
-          else
-            log(client, "grant_control to " + clients_.name(clients_.view().controller));
-          break;
-        default:
-          return session_.push(std::move(command));
+      if (command.what == "layers") {
+        clients_.want_layers(client, std::move(command.names));
+      } else if (command.what == "inspect") {
+        clients_.want_inspection(client,
+                                 command.on ? std::optional<long>(command.count) : std::nullopt);
+      } else if (command.what == "request_control") {
+        clients_.take(client);
+      } else if (command.what == "grant_control") {
+        if (!clients_.give(client, static_cast<ClientId>(command.count)))
+          note(client, "warning", "only the client in control grants it, to a connected client");
+        else
+          log(client, "grant_control to " + clients_.name(clients_.view().controller));
+      } else {
+        return session_.push(std::move(command));
       }
       streamer_.look_again();
     } catch (const InputError& error) {

@@ -141,7 +141,8 @@ class LabProtocol(LabTest):
         shared |= {name: (key, False) for name, key in re.findall(r'const Field (\w+)\{"(\w+)"', source)}
         table = source[source.index("static const std::vector<Form> all"):source.index("return all;")]
         read = {}
-        for name, rest in re.findall(r'\{"(\w+)",\s*Verb::\w+,\s*\w+,(.*?)(?=\{"\w+",\s*Verb|\Z)', table, re.S):
+        form = r'\{"(\w+)",\s*(?:true|false),'
+        for name, rest in re.findall(form + r'(.*?)(?=\{"\w+",\s*(?:true|false)|\Z)', table, re.S):
             own = {key: bool(absent) for key, absent in re.findall(made, rest)}
             own |= {"body": flag == "true" for flag in re.findall(r"body\((true|false)\)", rest)}
             also = dict(shared[word] for word in re.findall(r"[{\s](\w+)[,}]", rest) if word in shared)

@@ -31,7 +31,7 @@ void lab_message(Bytes bytes) {
   goes_through([&] {
     const LabCommand command = parse_command(std::string(bytes));
     needs_control(command.what);
-    if (command.what != LabCommand::Do::set && command.what != LabCommand::Do::branch) return;
+    if (command.what != "set" && command.what != "branch") return;
     Value tree = scene;
     DiagnosticList faults;
     for (const std::string& text : command.names) apply(parse_change(text), -1, tree, faults);

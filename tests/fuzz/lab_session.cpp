@@ -94,21 +94,20 @@ class ScheduledLab {
     clients_.closed(std::exchange(client, 0));
   }
   void say(ClientId client, const std::string& text) {
-    using Do = LabCommand::Do;
     const ClientId controller = clients_.view().controller;
     noted([&] {
       LabCommand command = parse_command(text);
       text_of_command(text);
       if (!client || (needs_control(command.what) && client != controller)) return;
-      const bool is_device = command.what == Do::input && command.name == "device";
+      const bool is_device = command.what == "input" && command.name == "device";
       if (is_device && !stays_inside(command.spec)) return;
-      if (command.what == Do::layers)
+      if (command.what == "layers")
         clients_.want_layers(client, std::move(command.names));
-      else if (command.what == Do::inspect)
+      else if (command.what == "inspect")
         clients_.want_inspection(client, command.on ? std::optional(command.count) : std::nullopt);
-      else if (command.what == Do::request_control)
+      else if (command.what == "request_control")
         clients_.take(client);
-      else if (command.what == Do::grant_control)
+      else if (command.what == "grant_control")
         clients_.give(client, static_cast<ClientId>(command.count));
       else if (client == controller)
         state_.inbox.push(std::move(command));

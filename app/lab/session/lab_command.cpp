@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using Verb = LabCommand::Do;
-
 constexpr std::size_t kMaxNames = 64;
 constexpr std::size_t kMaxCommands = 4096;
 constexpr long kMaxIndex = 1'000'000;
@@ -90,8 +88,7 @@ Field angle(const char* key, Eigen::Index component) {
 }
 
 struct Form {
-  const char* name;
-  Verb what;
+  std::string name;
   bool needs_control;
   std::vector<Field> fields;
 };
@@ -113,44 +110,33 @@ const std::vector<Form>& forms() {
     return whole_number("body", "a body's number", kMaxIndex, is_optional);
   };
   static const std::vector<Form> all{
-      {"layers", Verb::layers, false, {field("names", texts, &LabCommand::names)}},
-      {"inspect", Verb::inspect, false, {on, body(true)}},
-      {"request_control", Verb::request_control, false, {}},
-      {"grant_control",
-       Verb::grant_control,
-       false,
-       {whole_number("to", "a client's number", kMaxIndex)}},
-      {"seek", Verb::seek, true, {at}},
-      {"play", Verb::play, true, {on}},
-      {"step", Verb::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
-      {"speed", Verb::speed, true, {factor}},
-      {"set", Verb::set, true, {changes}},
-      {"branch", Verb::branch, true, {at, changes}},
-      {"preset", Verb::preset, true, {name}},
-      {"scene", Verb::scene, true, {name}},
+      {"layers", false, {field("names", texts, &LabCommand::names)}},
+      {"inspect", false, {on, body(true)}},
+      {"request_control", false, {}},
+      {"grant_control", false, {whole_number("to", "a client's number", kMaxIndex)}},
+      {"seek", true, {at}},
+      {"play", true, {on}},
+      {"step", true, {whole_number("steps", "1 to 100000", 100'000)}},
+      {"speed", true, {factor}},
+      {"set", true, {changes}},
+      {"branch", true, {at, changes}},
+      {"preset", true, {name}},
+      {"scene", true, {name}},
       {"edit",
-       Verb::edit,
        true,
        {field("what", text, &LabCommand::name), field("name", text, &LabCommand::spec, true)}},
-      {"reset", Verb::reset, true, {}},
-      {"reset_parameters", Verb::reset_parameters, true, {}},
+      {"reset", true, {}},
+      {"reset_parameters", true, {}},
       {"input",
-       Verb::input,
        true,
        {field("source", text, &LabCommand::name), field("spec", text, &LabCommand::spec, true)}},
-      {"drag_stylus", Verb::drag_stylus, true, {goal, stamp}},
-      {"joint", Verb::joint, true, {index, field("value", number, &LabCommand::value), stamp}},
-      {"rotate_stylus",
-       Verb::rotate_stylus,
-       true,
-       {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
-      {"axes", Verb::axes, true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
-      {"button", Verb::button, true, {index, field("down", flag, &LabCommand::on), stamp}},
-      {"drag_body",
-       Verb::drag_body,
-       true,
-       {body(false), field("point", three, &LabCommand::point), goal, stamp}},
-      {"release", Verb::release, true, {}}};
+      {"drag_stylus", true, {goal, stamp}},
+      {"joint", true, {index, field("value", number, &LabCommand::value), stamp}},
+      {"rotate_stylus", true, {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
+      {"axes", true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
+      {"button", true, {index, field("down", flag, &LabCommand::on), stamp}},
+      {"drag_body", true, {body(false), field("point", three, &LabCommand::point), goal, stamp}},
+      {"release", true, {}}};
   return all;
 }
 
@@ -174,11 +160,11 @@ LabCommand parse_command(const std::string& text) {
   command.came = std::chrono::steady_clock::now();
   const Value root = parse_json(text, "command");
   const Form& form = form_of(root);
-  command.what = form.what;
+  command.what = form.name;
   DiagnosticList faults;
   for (const Field& field : form.fields) {
     const Value* value = root.find(field.key);
-    const std::string where = std::string(form.name) + ", " + field.key;
+    const std::string where = form.name + ", " + field.key;
     const std::string fix = std::string("give ") + field.expected;
     if (!value && !field.is_optional)
       faults.add({"command", 0, where, "is missing", fix, "lab.missing"});
@@ -189,19 +175,19 @@ LabCommand parse_command(const std::string& text) {
   return command;
 }
 
-bool needs_control(LabCommand::Do what) {
-  return std::ranges::find(forms(), what, &Form::what)->needs_control;
+bool needs_control(std::string_view what) {
+  return std::ranges::find(forms(), what, &Form::name)->needs_control;
 }
 
-bool is_movement(Verb what) {
-  return what == Verb::drag_stylus || what == Verb::joint || what == Verb::rotate_stylus ||
-         what == Verb::axes || what == Verb::drag_body;
+bool is_movement(std::string_view what) {
+  return what == "drag_stylus" || what == "joint" || what == "rotate_stylus" || what == "axes" ||
+         what == "drag_body";
 }
 
 std::string text_of_command(const std::string& text) {
   Value root = parse_json(text, "command");
   const Form& form = form_of(root);
-  if (is_movement(form.what)) return form.name;
+  if (is_movement(form.name)) return form.name;
   std::erase_if(root.members, [&](const Value& member) {
     return std::ranges::none_of(form.fields,
                                 [&](const Field& field) { return member.key == field.key; });

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lab/session/lab_status.h"
@@ -17,35 +18,8 @@
 namespace twinarm {
 
 struct LabCommand {
-  enum class Do {
-    // permitted to every client
-    layers,
-    inspect,
-    request_control,
-    grant_control,
-    // permitted to the client in control
-    seek,
-    play,
-    step,
-    speed,
-    set,
-    branch,
-    preset,
-    scene,
-    edit,
-    reset,
-    reset_parameters,
-    input,
-    drag_stylus,
-    joint,
-    rotate_stylus,
-    axes,
-    button,
-    drag_body,
-    release
-  };
-  Do what = Do::release;
-  bool on = false;  // play, inspect, button (down)
+  std::string_view what = "release";  // its name
+  bool on = false;                    // play, inspect, button (down)
   long count = 0;  // step: steps; joint, button: index; drag_body, inspect: body; grant_control: to
   double value = 1;                // speed: factor; joint: value [rad, m]
   std::optional<double> at;        // seek, branch [s]; seek: none is the newest
@@ -64,9 +38,9 @@ struct LabCommand {
 LabCommand parse_command(const std::string& text);
 
 // Whether only the client in control may send it.
-bool needs_control(LabCommand::Do what);
+bool needs_control(std::string_view what);
 // Sent many times a second; visible in the next frame.
-bool is_movement(LabCommand::Do what);
+bool is_movement(std::string_view what);
 // Of a valid command its name and what it has of the described keys: "play on = true"; of a
 // movement its name alone.
 std::string text_of_command(const std::string& text);

@@ -38,7 +38,6 @@ class SessionCommands {
   void choose_source(const std::string& source, const std::string& spec);
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void open_preset(const std::string& name);
-  void open_from_gallery(const std::string& name);
   void edit(const SceneEdit& edit);
   void request(BuildRequest::What what, double at = 0);
   BuildRequest request_of(BuildRequest::What what) const;

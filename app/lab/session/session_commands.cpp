@@ -28,80 +28,67 @@ const Entry& named(const std::string& name, const std::vector<Entry>& all, const
 }  // namespace
 
 void SessionCommands::act(const LabCommand& command) {
-  using Do = LabCommand::Do;
-  s_.has_news = s_.has_news || !is_movement(command.what);
-  switch (command.what) {
-    case Do::play:
-      if (command.on && s_.status.failure) return;
-      s_.status.playing = command.on;
-      if (command.on) s_.status.at.reset();
-      return;
-    case Do::step:
-      s_.status.playing = false;
-      s_.status.at.reset();
-      if (!s_.status.failure) s_.loop.request_steps(command.count);
-      return;
-    case Do::speed:
-      s_.status.speed = command.value;
-      s_.loop.set_pace(command.value);
-      return;
-    case Do::seek:
-      s_.status.at = command.at;
-      if (command.at) s_.status.playing = false;
-      return;
-    case Do::set:
-      return change(command.names, {});
-    case Do::branch:
-      return change(command.names,
-                    command.at ? command.at : std::optional(s_.loop.run().view().time()));
-    case Do::preset:
-      return open_preset(command.name);
-    case Do::scene:
-      return open_from_gallery(command.name);
-    case Do::edit:
-      return edit({command.name, command.spec});
-    case Do::reset:
-      return request(BuildRequest::What::reset);
-    case Do::reset_parameters:
-      s_.pending.add({0, true, {}});
-      return request(BuildRequest::What::change);
-    default:
-      return act_on_input(command);
+  const std::string_view what = command.what;
+  s_.has_news = s_.has_news || !is_movement(what);
+  if (what == "play") {
+    if (command.on && s_.status.failure) return;
+    s_.status.playing = command.on;
+    if (command.on) s_.status.at.reset();
+  } else if (what == "step") {
+    s_.status.playing = false;
+    s_.status.at.reset();
+    if (!s_.status.failure) s_.loop.request_steps(command.count);
+  } else if (what == "speed") {
+    s_.status.speed = command.value;
+    s_.loop.set_pace(command.value);
+  } else if (what == "seek") {
+    s_.status.at = command.at;
+    if (command.at) s_.status.playing = false;
+  } else if (what == "set") {
+    change(command.names, {});
+  } else if (what == "branch") {
+    change(command.names, command.at ? command.at : std::optional(s_.loop.run().view().time()));
+  } else if (what == "preset") {
+    open_preset(command.name);
+  } else if (what == "scene") {
+    open_(order_to_open(named(command.name, gallery_, "scene", "gallery")));
+  } else if (what == "edit") {
+    edit({command.name, command.spec});
+  } else if (what == "reset") {
+    request(BuildRequest::What::reset);
+  } else if (what == "reset_parameters") {
+    s_.pending.add({0, true, {}});
+    request(BuildRequest::What::change);
+  } else {
+    act_on_input(command);
   }
 }
 
 void SessionCommands::act_on_input(const LabCommand& command) {
-  using Do = LabCommand::Do;
+  using Source = OperatorInput::Source;
+  const std::string_view what = command.what;
   const auto index = static_cast<std::size_t>(command.count);
-  if (command.what == Do::release) {
+  if (what == "release") {
     s_.hand.release();
     return s_.loop.run().release_mouse();
   }
   s_.loop.repeat_inputs(false);  // new input takes precedence over repeated input
-  if (command.what == Do::input) return choose_source(command.name, command.spec);
+  if (what == "input") return choose_source(command.name, command.spec);
   s_.input_came = command.came;
   s_.hand.set_stamp(command.stamp);
-  switch (command.what) {
-    case Do::drag_stylus:
-      switch_source(OperatorInput::Source::drag);
-      return s_.hand.tip(command.goal);
-    case Do::joint:
-      switch_source(OperatorInput::Source::joints);
-      return s_.hand.joint(index, command.value);
-    case Do::rotate_stylus:
-      switch_source(OperatorInput::Source::drag);
-      return s_.hand.rotate_stylus(command.point);
-    case Do::axes:
-      switch_source(OperatorInput::Source::drag);
-      return s_.hand.axes(command.rates);
-    case Do::button:
-      return s_.hand.button(index, command.on);
-    case Do::drag_body:
-      if (!s_.loop.run().drag(static_cast<int>(command.count), command.point, command.goal))
-        s_.inbox.note("note", "the body is fixed or has prescribed motion: no force moves it");
-      return;
-    default:
-      return;
+  if (what == "joint") {
+    switch_source(Source::joints);
+    s_.hand.joint(index, command.value);
+  } else if (what == "button") {
+    s_.hand.button(index, command.on);
+  } else if (what == "drag_body") {
+    if (!s_.loop.run().drag(static_cast<int>(command.count), command.point, command.goal))
+      s_.inbox.note("note", "the body is fixed or has prescribed motion: no force moves it");
+  } else {
+    switch_source(Source::drag);
+    if (what == "drag_stylus") s_.hand.tip(command.goal);
+    if (what == "rotate_stylus") s_.hand.rotate_stylus(command.point);
+    if (what == "axes") s_.hand.axes(command.rates);
   }
 }
 
@@ -147,10 +134,6 @@ void SessionCommands::open_preset(const std::string& name) {
   request.hand = preset.hand;
   for (const std::string& text : preset.changes) put(request.changes, parse_change(text));
   open_(std::move(request));
-}
-
-void SessionCommands::open_from_gallery(const std::string& name) {
-  open_(order_to_open(named(name, gallery_, "scene", "gallery")));
 }
 
 void SessionCommands::edit(const SceneEdit& edit) {
