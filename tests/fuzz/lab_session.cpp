@@ -122,7 +122,10 @@ class ScheduledLab {
     const char* name = kNames[take() % std::size(kNames)];
     const unsigned kind = take() % 3;
     const std::string text = kind == 0 ? scene_ : kind == 1 ? robot_ : take_text(take());
-    if (!client || clients_.controller(clients_.secret(client)) != client) return;
+    const Clients::View view = clients_.view();
+    if (!client || client != view.controller) return;
+    require(clients_.controller(view.clients.at(client).secret) == client,
+            "the secret is another's");
     require(clients_.has_control(client), "a client without control uploads");
     noted([&] {
       const UploadedFile upload = classify_upload(name, text);
@@ -191,7 +194,7 @@ class ScheduledLab {
     const Clients::View view = clients_.view();
     const std::string message = state_message(*shown_.now().status, view, {}, gallery_);
     require(nlohmann::ordered_json::accept(message), "the message `state` is not JSON");
-    require(!view.controller || std::ranges::count(view.clients, view.controller) == 1,
+    require(!view.controller || view.clients.contains(view.controller),
             "one who has left has control");
     require(view.waiting.size() < ids_.size() && (view.waiting.empty() || view.controller),
             "a request for control is void");

@@ -12,97 +12,76 @@ namespace twinarm {
 
 void Clients::opened(ClientId client, const std::string& address) {
   const std::lock_guard lock(mutex_);
-  clients_[client].address = address;
-  if (controller_ == 0) controller_ = client;
+  now_.clients[client].address = address;
+  if (now_.controller == 0) now_.controller = client;
 }
 
 void Clients::closed(ClientId client) {
   const std::lock_guard lock(mutex_);
-  clients_.erase(client);
-  std::erase(waiting_, client);
-  if (controller_ == client) controller_ = 0;
-  if (controller_ != 0) return;
-  if (!waiting_.empty()) {
-    controller_ = waiting_.front();
-    waiting_.erase(waiting_.begin());
-  } else if (clients_.size() == 1) {
-    controller_ = clients_.begin()->first;
+  now_.clients.erase(client);
+  std::erase(now_.waiting, client);
+  if (now_.controller == client) now_.controller = 0;
+  if (now_.controller != 0) return;
+  if (!now_.waiting.empty()) {
+    now_.controller = now_.waiting.front();
+    now_.waiting.erase(now_.waiting.begin());
+  } else if (now_.clients.size() == 1) {
+    now_.controller = now_.clients.begin()->first;
   }
 }
 
 void Clients::take(ClientId client) {
   const std::lock_guard lock(mutex_);
-  if (!clients_.contains(client) || controller_ == client) return;
-  if (controller_ == 0)
-    controller_ = client;
-  else if (std::ranges::find(waiting_, client) == waiting_.end())
-    waiting_.push_back(client);
+  if (!now_.clients.contains(client) || now_.controller == client) return;
+  if (now_.controller == 0)
+    now_.controller = client;
+  else if (std::ranges::find(now_.waiting, client) == now_.waiting.end())
+    now_.waiting.push_back(client);
 }
 
 bool Clients::give(ClientId from, ClientId to) {
   const std::lock_guard lock(mutex_);
-  if (controller_ != from || !clients_.contains(to)) return false;
-  controller_ = to;
-  std::erase(waiting_, to);
+  if (now_.controller != from || !now_.clients.contains(to)) return false;
+  now_.controller = to;
+  std::erase(now_.waiting, to);
   return true;
 }
 
 bool Clients::has_control(ClientId client) const {
   const std::lock_guard lock(mutex_);
-  return controller_ == client;
-}
-
-std::string Clients::secret(ClientId client) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = clients_.find(client);
-  return found == clients_.end() ? "" : found->second.secret;
+  return now_.controller == client;
 }
 
 ClientId Clients::controller(std::string_view secret) const {
   const std::lock_guard lock(mutex_);
-  const auto found = clients_.find(controller_);
-  return found != clients_.end() && is_secret(secret, found->second.secret) ? controller_ : 0;
+  const auto found = now_.clients.find(now_.controller);
+  return found != now_.clients.end() && is_secret(secret, found->second.secret) ? now_.controller
+                                                                                : 0;
 }
 
 std::string Clients::name(ClientId client) const {
   const std::lock_guard lock(mutex_);
-  const auto found = clients_.find(client);
+  const auto found = now_.clients.find(client);
   return "client " + std::to_string(client) + " at " +
-         (found == clients_.end() ? "" : found->second.address);
+         (found == now_.clients.end() ? "" : found->second.address);
 }
 
 void Clients::want_layers(ClientId client, std::vector<std::string> names) {
   const std::lock_guard lock(mutex_);
-  if (const auto found = clients_.find(client); found != clients_.end())
+  if (const auto found = now_.clients.find(client); found != now_.clients.end())
     found->second.layers = std::move(names);
 }
 
 void Clients::want_inspection(ClientId client, std::optional<long> body) {
   const std::lock_guard lock(mutex_);
-  if (const auto found = clients_.find(client); found != clients_.end())
+  if (const auto found = now_.clients.find(client); found != now_.clients.end())
     found->second.inspected = body;
 }
 
-std::vector<std::string> Clients::layers() const {
-  const std::lock_guard lock(mutex_);
+std::vector<std::string> Clients::View::layers() const {
   std::set<std::string> all;
-  for (const auto& [id, client] : clients_) all.insert(client.layers.begin(), client.layers.end());
+  for (const auto& [id, client] : clients) all.insert(client.layers.begin(), client.layers.end());
   return {all.begin(), all.end()};
-}
-
-std::map<ClientId, long> Clients::inspected() const {
-  const std::lock_guard lock(mutex_);
-  std::map<ClientId, long> all;
-  for (const auto& [id, client] : clients_)
-    if (client.inspected) all[id] = *client.inspected;
-  return all;
-}
-
-Clients::View Clients::view() const {
-  const std::lock_guard lock(mutex_);
-  View view{controller_, waiting_, {}};
-  for (const auto& [id, client] : clients_) view.clients.push_back(id);
-  return view;
 }
 
 namespace {

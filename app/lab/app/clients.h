@@ -20,10 +20,18 @@ namespace twinarm {
 
 class Clients {
  public:
+  struct Client {
+    std::vector<std::string> layers{"bodies", "targets", "couplings", "contacts"};
+    std::optional<long> inspected;  // body
+    std::string address;
+    // HTTP requests do not name their client: sent in its own state message.
+    std::string secret = random_token();
+  };
   struct View {
     ClientId controller = 0;        // 0: none
     std::vector<ClientId> waiting;  // for control, in order
-    std::vector<ClientId> clients;
+    std::map<ClientId, Client> clients;
+    std::vector<std::string> layers() const;  // of all clients, each once
   };
 
   void opened(ClientId client, const std::string& address = "");
@@ -31,30 +39,21 @@ class Clients {
   void take(ClientId client);  // requests control
   // False: `from` is not in control, or `to` is not connected.
   bool give(ClientId from, ClientId to);
-  bool has_control(ClientId client) const;  // is in control
-  // HTTP requests do not name their client: each has a secret, sent in its own state message.
-  std::string secret(ClientId client) const;           // empty: not connected
+  bool has_control(ClientId client) const;             // is in control
   ClientId controller(std::string_view secret) const;  // 0: it is another client's
   std::string name(ClientId client) const;             // "client 3 at 192.168.1.7"
 
   void want_layers(ClientId client, std::vector<std::string> names);
   void want_inspection(ClientId client, std::optional<long> body);
-  std::vector<std::string> layers() const;     // of all clients, each once
-  std::map<ClientId, long> inspected() const;  // body inspected by each client
 
-  View view() const;
+  View view() const {
+    const std::lock_guard lock(mutex_);
+    return now_;
+  }
 
  private:
-  struct Client {
-    std::vector<std::string> layers{"bodies", "targets", "couplings", "contacts"};
-    std::optional<long> inspected;
-    std::string address;
-    std::string secret = random_token();
-  };
   mutable std::mutex mutex_;
-  std::map<ClientId, Client> clients_;
-  ClientId controller_ = 0;
-  std::vector<ClientId> waiting_;
+  View now_;
 };
 
 // The message `state` of docs/reference/lab_protocol.md, without `you` and `secret`, which

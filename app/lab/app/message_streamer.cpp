@@ -49,7 +49,7 @@ void MessageStreamer::work(const std::stop_token& stop) {
       take_scene(now);
       do_jobs();
       greet_new_clients();
-      const double rate = greeted_.size() > kManyClients ? kSlowRate : kRate;
+      const double rate = greeted_.clients.size() > kManyClients ? kSlowRate : kRate;
       session_.set_rate(rate);
       update_limits(now);
       send_state(now);
@@ -82,9 +82,9 @@ void MessageStreamer::do_jobs() {
 
 // New clients get the scene first, and each frame once.
 void MessageStreamer::greet_new_clients() {
-  std::vector<ClientId> current = clients_.view().clients;
-  for (const ClientId client : current) {
-    if (std::ranges::find(greeted_, client) != greeted_.end()) continue;
+  Clients::View current = clients_.view();
+  for (const auto& [client, its] : current.clients) {
+    if (greeted_.clients.contains(client)) continue;
     post_(client, scene_channel, shared_bytes(view_->scene_message()));
     if (last_frame_) post_(client, frame_channel, last_frame_);
     state_.clear();  // sent to all clients: control may have changed
@@ -127,7 +127,7 @@ void MessageStreamer::take_scene(const LabNow& now) {
 void MessageStreamer::send_scene() {
   revision_ = view_->revision();
   const Bytes message = shared_bytes(view_->scene_message());
-  for (const ClientId client : greeted_) post_(client, scene_channel, message);
+  for (const auto& [client, its] : greeted_.clients) post_(client, scene_channel, message);
 }
 
 void MessageStreamer::update_limits(const LabNow& now) {
@@ -143,11 +143,11 @@ void MessageStreamer::update_limits(const LabNow& now) {
 }
 
 void MessageStreamer::send_state(const LabNow& now) {
-  std::string state = state_message(*now.status, clients_.view(), parameters_, gallery_);
+  std::string state = state_message(*now.status, greeted_, parameters_, gallery_);
   if (state == state_) return;
   state_ = std::move(state);
-  for (const ClientId client : greeted_)
-    post_(client, state_channel, shared_bytes(addressed(state_, client, clients_.secret(client))));
+  for (const auto& [client, its] : greeted_.clients)
+    post_(client, state_channel, shared_bytes(addressed(state_, client, its.secret)));
 }
 
 // Sends each frame once. Returns the time until the next may be sent [s]; a newer one may replace
@@ -156,7 +156,7 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   if (!now.frame) return kIdle;
   LastSentFrame wanted{now.frame,
                        now.before,
-                       clients_.layers(),
+                       greeted_.layers(),
                        !now.status->playing,
                        now.status->at.has_value(),
                        now.status->failure.has_value()};
@@ -175,7 +175,7 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   drawing.unlock();
   if (view_->revision() != revision_) send_scene();
   last_frame_ = shared_bytes(std::move(frame));
-  for (const ClientId client : greeted_) post_(client, frame_channel, last_frame_);
+  for (const auto& [client, its] : greeted_.clients) post_(client, frame_channel, last_frame_);
   return kIdle;
 }
 
@@ -188,8 +188,8 @@ DrawList MessageStreamer::drawn() {
 void MessageStreamer::send_inspections(const LabNow& now) {
   std::map<ClientId, SentInspection> wanted;
   const bool paused = !now.status->playing;
-  for (const auto& [client, body] : clients_.inspected())
-    wanted[client] = {now.scene_number, now.number, body, paused};
+  for (const auto& [client, its] : greeted_.clients)
+    if (its.inspected) wanted[client] = {now.scene_number, now.number, *its.inspected, paused};
   if (wanted == sent_inspections_ || !now.frame) return;
   const double per_second = paused ? kInspectionsPaused : kInspections;
   if (!inspections_.passes(Clock::now(), per_second, 1)) return;

@@ -73,7 +73,7 @@ class MessageStreamer {
   std::deque<std::function<void(MessageStreamer&)>> jobs_;
 
   std::unique_ptr<LabView> view_;
-  std::vector<ClientId> greeted_;  // clients that have got the scene
+  Clients::View greeted_;  // those that have got the scene
   struct SentInspection {
     long scene = 0;
     std::uint64_t number = 0;  // LabNow::number

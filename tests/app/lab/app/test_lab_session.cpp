@@ -268,12 +268,13 @@ TEST_CASE("clients: only the secret of the client in control is one of control")
   clients.opened(1, "192.168.1.7");
   clients.opened(2, "::1");
   CHECK(clients.name(1) == "client 1 at 192.168.1.7");
-  CHECK(clients.controller(clients.secret(1)) == 1);
-  CHECK(clients.controller(clients.secret(2)) == 0);
+  const std::string second = clients.view().clients.at(2).secret;
+  CHECK(clients.controller(clients.view().clients.at(1).secret) == 1);
+  CHECK(clients.controller(second) == 0);
   CHECK(clients.controller("") == 0);
   clients.closed(1);
   CHECK(clients.controller("") == 0);
-  CHECK(clients.controller(clients.secret(2)) == 2);
+  CHECK(clients.controller(second) == 2);
 }
 
 TEST_CASE("clients: layers of all clients are drawn, each once") {
@@ -282,11 +283,11 @@ TEST_CASE("clients: layers of all clients are drawn, each once") {
   clients.opened(2);
   clients.want_layers(1, {"bodies", "frames"});
   clients.want_layers(2, {"trails", "bodies"});
-  CHECK(clients.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
+  CHECK(clients.view().layers() == std::vector<std::string>{"bodies", "frames", "trails"});
   clients.want_inspection(2, 4);
-  CHECK(clients.inspected() == std::map<ClientId, long>{{2, 4}});
+  CHECK(clients.view().clients.at(2).inspected == 4);
   clients.want_inspection(2, std::nullopt);
-  CHECK(clients.inspected().empty());
+  CHECK_FALSE(clients.view().clients.at(2).inspected);
 }
 
 TEST_CASE("pacer: run time follows wall time, and a backlog is not made up for") {
