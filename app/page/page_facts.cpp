@@ -114,15 +114,13 @@ void write_tables(JsonWriter& json, const FilmedRun& run) {
 
 // Text files: scene, robots, state.
 void write_files(JsonWriter& json, const RecordingHeader& header) {
-  json.key("files").begin_array();
-  for (const RecordedFile& file : header.files) {
+  json.key("files").list(header.files, [&](const RecordedFile& file) {
     const std::filesystem::path path = file.path;
     const std::string end = path.extension().string();
     const bool is_text = end == ".toml" || end == ".urdf" || end == ".json" || end == ".csv";
-    if (!is_text || file.bytes.size() > kLongestFile) continue;
-    json.object({{"name", path.filename().string()}, {"text", file.bytes}});
-  }
-  json.end_array();
+    if (is_text && file.bytes.size() <= kLongestFile)
+      json.object({{"name", path.filename().string()}, {"text", file.bytes}});
+  });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace twinarm {
@@ -209,9 +210,7 @@ std::string texture_file(const Image& image) {
 }
 
 void write_color(JsonWriter& json, const Color& color) {
-  json.begin_array();
-  for (const float part : {color.r, color.g, color.b}) json.count(byte_of(part));
-  json.end_array();
+  json.value(std::array{byte_of(color.r), byte_of(color.g), byte_of(color.b)});
 }
 
 void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {

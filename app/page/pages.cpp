@@ -24,12 +24,12 @@ void require_form(std::string_view form, std::string_view missing, const std::st
                      "page.missing");
 }
 
-std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
+std::string fill_form(std::string_view form, const std::string& title, const std::string& json,
                       const PageBytes& bytes) {
   // "</script>" in a name would end the block of the JSON.
   const std::vector<std::pair<std::string, std::string>> parts{
       {"@TITLE@", escaped(title)},
-      {"@RUN@", replace_all(json.str(), "<", "\\u003c")},
+      {"@RUN@", replace_all(json, "<", "\\u003c")},
       {"@BYTES@", bytes.packed()}};
   std::string html;
   for (const auto& [mark, text] : parts) {  // each once, in this order
@@ -96,18 +96,17 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   layers.add_apart(snapshot);
   layers.show_at_first({"joints"});
 
-  JsonWriter json;
   PageBytes bytes;
-  json.begin_object();
-  json.members({{"title", words.title},
-                {"state", words.state},
-                {"command", command_line(words.command)},
-                {"version", kProgramVersion},
-                {"inspection", inspection}});
-  layers.write(json, bytes);
-  write_view(json, view);
-  json.end_object();
-  return fill_form(bundle.inspect, words.title, json, bytes);
+  const std::string text = json_text([&](JsonWriter& json) {
+    json.members({{"title", words.title},
+                  {"state", words.state},
+                  {"command", command_line(words.command)},
+                  {"version", kProgramVersion},
+                  {"inspection", inspection}});
+    layers.write(json, bytes);
+    write_view(json, view);
+  });
+  return fill_form(bundle.inspect, words.title, text, bytes);
 }
 
 ReplayPage replay_page(const std::filesystem::path& file) {
@@ -132,15 +131,14 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   const double duration = run.shown.back().x.t - run.shown.front().x.t;
   if (duration > 0) page.rate = static_cast<double>(page.frames - 1) / duration;
 
-  JsonWriter json;
   PageBytes bytes;
-  json.begin_object();
-  write_facts(json, run, view, page.rate);
-  channels.write(json, bytes);
-  layers.write(json, bytes);
-  write_view(json, view);
-  json.end_object();
-  page.html = fill_form(bundle.replay, view.name, json, bytes);
+  const std::string text = json_text([&](JsonWriter& json) {
+    write_facts(json, run, view, page.rate);
+    channels.write(json, bytes);
+    layers.write(json, bytes);
+    write_view(json, view);
+  });
+  page.html = fill_form(bundle.replay, view.name, text, bytes);
   return page;
 }
 

@@ -94,9 +94,8 @@ void write_forces(JsonWriter& json, const Inspection& in, const InspectView& vie
 }
 
 void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
-  json.begin_array();
-  for (const JointBalance& joint : joint_balances(in)) {
-    if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) continue;
+  json.list(joint_balances(in), [&](const JointBalance& joint) {
+    if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) return;
     json.begin_object();
     json.members({{"joint", in.model.joint_name[joint.body]},
                   {"component", joint.dof - in.model.iv[joint.body]},
@@ -106,8 +105,7 @@ void write_joints(JsonWriter& json, const Inspection& in, const InspectView& vie
     });
     json.key("residual").number(joint.residual);
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 void write_checks(JsonWriter& json, const std::vector<Check>& checks) {

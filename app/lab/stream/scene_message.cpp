@@ -21,15 +21,12 @@ const std::vector<LayerWords>& lab_layers() {
 }
 
 void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& legends) {
-  json.key("layers").begin_array();
-  for (std::size_t i = 0; i < lab_layers().size(); ++i) {
-    json.begin_object();
-    json.members({{"name", lab_layers()[i].name}, {"what", lab_layers()[i].what}});
-    json.key("legend");
-    write_legend(json, legends[i]);
-    json.end_object();
-  }
-  json.end_array();
+  auto legend = legends.begin();
+  json.key("layers").list(lab_layers(), [&](const LayerWords& layer) {
+    json.object({{"name", layer.name}, {"what", layer.what}, {"legend", [&] {
+                                                                write_legend(json, *legend++);
+                                                              }}});
+  });
 }
 
 void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
@@ -50,9 +47,8 @@ bool turns_or_slides(JointDescription::Type type) {
 }
 
 void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<int>& driven) {
-  json.key("joints").begin_array();
-  for (const NamedJoint& joint : robots.coordinates.all()) {
-    if (joint.components().size() != 1) continue;
+  json.key("joints").list(robots.coordinates.all(), [&](const NamedJoint& joint) {
+    if (joint.components().size() != 1) return;
     json.begin_object();
     json.members({{"name", joint.name}, {"body", joint.body}});
     const auto& all = robots.robot.joints;
@@ -67,8 +63,7 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
     const auto place = std::ranges::find(driven, static_cast<int>(joint.body));
     if (place != driven.end()) json.key("driven").count(place - driven.begin());
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 // u32 vertices, indices, flags (1: two-sided, 2: has uv), 0; then positions, normals, uv, indices.
@@ -94,28 +89,26 @@ const std::vector<std::string>& layer_names() {
 }
 
 std::string LabView::scene_message() const {
-  JsonWriter json;
-  json.begin_object();
-  json.members({{"kind", "scene"},
-                {"scene", columns_.scene},
-                {"title", words_.title.empty() ? stage_.name : words_.title},
-                {"file", words_.file},
-                {"look", words_.look},
-                {"meshes", store_.meshes()},
-                {"textures", store_.textures()}});
-  write_layers(json, legends_);
-  json.key("channels").list(channels_.all(), [&](const RunColumn& channel) {
-    json.object([&] { write_channel(json, channel); });
+  return json_text([&](JsonWriter& json) {
+    json.members({{"kind", "scene"},
+                  {"scene", columns_.scene},
+                  {"title", words_.title.empty() ? stage_.name : words_.title},
+                  {"file", words_.file},
+                  {"look", words_.look},
+                  {"meshes", store_.meshes()},
+                  {"textures", store_.textures()}});
+    write_layers(json, legends_);
+    json.key("channels").list(channels_.all(), [&](const RunColumn& channel) {
+      json.object([&] { write_channel(json, channel); });
+    });
+    json.key("energy_balance").texts(rows_);
+    write_bodies(json, *plan_);
+    const InputOverride* input = snapshots_.input_override();
+    write_joints(json, plan_->input.robot, input ? input->driven() : std::vector<int>{});
+    if (const auto tip = input ? input->tip() : std::nullopt)
+      json.key("tip").object({{"body", tip->first}, {"p", tip->second}});
+    write_view(json, stage_);
   });
-  json.key("energy_balance").texts(rows_);
-  write_bodies(json, *plan_);
-  const InputOverride* input = snapshots_.input_override();
-  write_joints(json, plan_->input.robot, input ? input->driven() : std::vector<int>{});
-  if (const auto tip = input ? input->tip() : std::nullopt)
-    json.key("tip").object({{"body", tip->first}, {"p", tip->second}});
-  write_view(json, stage_);
-  json.end_object();
-  return json.str();
 }
 
 bool MeshStore::take(const DrawList& list) {
