@@ -230,7 +230,6 @@ void write_view(JsonWriter& json, const SceneView& view) {
   json.key("view").begin_object();
   json.members({{"eye", camera.eye},
                 {"target", camera.target},
-                {"up", camera.up},
                 {"fieldOfView", camera.field_of_view},
                 {"light", view.list.light_W},
                 {"radius", view.extent.radius()}});

@@ -82,8 +82,7 @@ class LabCommand(LabTest):
         self.assertTrue(self.frame(lambda f: f.diverged))
         if failure["trying"]:
             failure = self.state(lambda s: not s["failure"]["trying"])["failure"]
-        self.assertIn("pull", failure["cause"])
-        self.assertTrue(failure["words"])
+        self.assertIn("pull", " ".join(failure["words"]))
         self.assertTrue(failure["remedies"])
         self.assertLess(failure["from"], failure["time"])
         for remedy in failure["remedies"]:

@@ -25,7 +25,7 @@ const page = {
     page.selected = body;
     panel.onSelect?.(body);
   },
-  arrows(_: string, given: unknown[]) {
+  arrows(given: unknown[]) {
     arrows = given;
   },
 };

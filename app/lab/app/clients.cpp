@@ -149,7 +149,6 @@ void write_end(JsonWriter& json, const LabStatus& status) {
     json.object({{"words", failure.words},
                  {"time", failure.time},
                  {"from", failure.from},
-                 {"cause", failure.spring},
                  {"trying", failure.trying},
                  {"remedies", [&] { write_remedies(failure.remedies, json); }}});
   });

@@ -152,7 +152,6 @@ void LabSession::show_end() {
   RunFailure end;
   end.time = found->time;
   end.words = found->words;
-  if (!found->violations.empty()) end.spring = found->violations.front().name;
   std::vector<SuggestedFix> fixes = fixes_of(state_.loop.run().prepared(), *found);
   SuggestedFix before = values_of_file(*state_.timeline.scene()->scene, state_.status.changes);
   if (!before.changes.empty()) fixes.push_back(std::move(before));

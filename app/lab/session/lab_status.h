@@ -20,7 +20,6 @@ struct RunFailure {
   double time = 0;  // of the last good state [s]
   double from = 0;  // instant from which to branch with a fix [s]
   std::vector<std::string> words;
-  std::string spring;
   bool trying = true;                  // fixes are being tried (app/lab/run/remedy_trial.h)
   std::vector<SuggestedFix> remedies;  // those that hold
 };

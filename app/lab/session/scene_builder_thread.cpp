@@ -142,10 +142,6 @@ std::optional<BuildResult> SceneBuilderThread::build_one_by_one(const BuildReque
   return built;
 }
 
-void SceneBuilderThread::push_refused(const BuildRequest& request) {
-  if (!request.pending.empty()) inbox_.push_refused(request.pending.back().number);
-}
-
 void SceneBuilderThread::work(const std::stop_token& stop) {
   pthread_setname_np(pthread_self(), "lab builder");
   for (;;) try {
@@ -167,12 +163,13 @@ void SceneBuilderThread::work(const std::stop_token& stop) {
         } catch (const InputError& error) {
           if (request.pending.size() < 2) throw;
           auto built = build_one_by_one(request);
-          built ? inbox_.push(std::move(*built)) : push_refused(request);
+          built ? inbox_.push(std::move(*built))
+                : inbox_.push_refused(request.pending.back().number);
         }
       } catch (const std::exception& error) {
         for (const PendingChange& pending : request.pending) refused_.push_back(pending.number);
         inbox_.note("error", error.what());
-        push_refused(request);
+        if (!request.pending.empty()) inbox_.push_refused(request.pending.back().number);
         if (request.done) request.done(error.what());
       }
     } catch (const std::exception& error) {  // of `done`

@@ -74,7 +74,6 @@ class SceneBuilderThread {
  private:
   void work(const std::stop_token& stop);
   std::optional<BuildResult> build_one_by_one(const BuildRequest& request);
-  void push_refused(const BuildRequest& request);
 
   Inbox& inbox_;
   std::vector<long> refused_;  // numbers of pending changes; used by this thread only

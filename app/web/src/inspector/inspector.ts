@@ -31,7 +31,10 @@ export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'selec
 export class Inspector implements Panel {
   readonly root = element('section.inspector', { 'aria-label': 'inspector' });
   private readonly heading = element('div.heading');
-  private readonly stepper = new Stepper((step) => this.go(step), (pass) => this.goPass(pass));
+  // One button per step, one row per pass.
+  private readonly stepper = element('nav.stepper', { 'aria-label': 'steps of the passes' });
+  private chips: HTMLButtonElement[] = [];
+  private rows: HTMLElement[] = [];
   private readonly place = element('output.place');
   private readonly content = element('div.content', { click: (event: Event) => this.click(event) });
   private steps: Step[] = [];
@@ -50,7 +53,7 @@ export class Inspector implements Panel {
       button(icon('on'), 'next step of the call (.)', () => this.move(1)),
       this.place,
     );
-    this.root.append(this.heading, this.stepper.root, walk, this.content);
+    this.root.append(this.heading, this.stepper, walk, this.content);
     const move = (by: number) => () => this.isSeen && this.move(by);
     listen([key(', .', 'previous, next step of the call', { ',': move(-1), '.': move(1) })]);
     // Requests data only while visible.
@@ -59,7 +62,7 @@ export class Inspector implements Panel {
       if (isSeen === this.isSeen) return;
       this.isSeen = isSeen;
       this.request();
-      if (!isSeen) this.page.arrows('inspector', []);
+      if (!isSeen) this.page.arrows([]);
     }).observe(this.root);
     if (page.scene) this.onScene(page.scene);
   }
@@ -67,11 +70,23 @@ export class Inspector implements Panel {
   onScene(scene: SceneMessage): void {
     this.bodies = scene.bodies.slice(1).map(({ name }) => name);
     this.steps = stepsOf(this.bodies);
-    this.stepper.set(this.steps);
+    this.fillStepper();
     this.newest = null;
     this.content.replaceChildren();
     const robot = scene.bodies.findIndex(({ moves, robot }) => moves && robot);
     this.onSelect(this.page.selected ?? Math.max(1, robot));
+  }
+
+  private fillStepper(): void {
+    this.chips = this.steps.map(({ pass, body }, i) => button(body, `pass ${pass} at ${body}`, () => this.go(i)));
+    this.rows = [1, 2, 3].map((pass) =>
+      element(
+        'div.row',
+        button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
+        ...this.chips.filter((_, i) => this.steps[i].pass === pass),
+      )
+    );
+    this.stepper.replaceChildren(...this.rows);
   }
 
   onSelect(body: number | null): void {
@@ -134,7 +149,11 @@ export class Inspector implements Panel {
   }
 
   private show(): void {
-    this.stepper.show(this.at, this.pass);
+    this.chips.forEach((chip, i) => {
+      chip.setAttribute('aria-current', i === this.at ? 'step' : 'false');
+      chip.classList.toggle('done', i < this.at);
+    });
+    this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === this.pass));
     this.place.textContent = `step ${this.at + 1} of ${this.steps.length}`;
   }
 
@@ -197,7 +216,7 @@ export class Inspector implements Panel {
   // inspection is older than the frame.
   private showForces({ paused, balance, axes }: BodyInspection): void {
     const found = paused && axes === 'world' ? balance?.[0] : undefined;
-    if (!found || !this.page.scene) return this.page.arrows('inspector', []);
+    if (!found || !this.page.scene) return this.page.arrows([]);
     const lengths = found.wrenches.map(({ force }) => Math.hypot(...force));
     const max = Math.max(...lengths.filter(Number.isFinite), 1e-300);
     const scale = (LENGTH * this.page.scene.view.radius) / max;
@@ -206,39 +225,10 @@ export class Inspector implements Panel {
       along: force.map((part) => scale * part) as Vector,
       color: wrenchColor(i),
     }));
-    this.page.arrows('inspector', arrows);
+    this.page.arrows(arrows);
   }
 }
 
 function orHint(parts: Node[], text: string): Node[] {
   return parts.length > 0 ? parts : [element('p.hint', text)];
-}
-
-// One button per step, one row per pass.
-class Stepper {
-  readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
-  private chips: HTMLButtonElement[] = [];
-  private rows: HTMLElement[] = [];
-
-  constructor(private readonly go: (step: number) => void, private readonly goPass: (pass: number) => void) {}
-
-  set(steps: readonly Step[]): void {
-    this.chips = steps.map(({ pass, body }, i) => button(body, `pass ${pass} at ${body}`, () => this.go(i)));
-    this.rows = [1, 2, 3].map((pass) =>
-      element(
-        'div.row',
-        button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
-        ...this.chips.filter((_, i) => steps[i].pass === pass),
-      )
-    );
-    this.root.replaceChildren(...this.rows);
-  }
-
-  show(at: number, pass: number): void {
-    this.chips.forEach((chip, i) => {
-      chip.setAttribute('aria-current', i === at ? 'step' : 'false');
-      chip.classList.toggle('done', i < at);
-    });
-    this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === pass));
-  }
 }

@@ -75,7 +75,7 @@ class Page extends RecordedPage {
         this.inspector.onSelect(body);
         this.touch();
       },
-      arrows: (_, arrows) => {
+      arrows: (arrows) => {
         this.stage.arrows.set(arrows);
         this.touch();
       },

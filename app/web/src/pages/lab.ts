@@ -74,7 +74,6 @@ export class Page implements LabPage {
   private readonly inspector = new Inspector(this);
   private readonly panels: Panel[] = [...Object.values(this.set), this.inspector];
   private readonly listeners: Listener[] = [this.run, ...this.panels]; // the run first: panels read it
-  private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
   private paintedAt = 0; // [ms]
 
@@ -109,9 +108,8 @@ export class Page implements LabPage {
     this.hints.showMessage(text);
   }
 
-  arrows(owner: string, arrows: Arrow[]): void {
-    this.arrowsOf.set(owner, arrows);
-    this.live.stage?.arrows.set([...this.arrowsOf.values()].flat());
+  arrows(arrows: Arrow[]): void {
+    this.live.stage?.arrows.set(arrows);
     this.touch();
   }
 

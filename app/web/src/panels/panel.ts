@@ -34,7 +34,6 @@ export interface LabPage {
   select(body: number | null): void;
   // Shows a message at the bottom of the view for some seconds.
   showMessage(text: string): void;
-  // Replaces the arrows of this owner in the view.
-  arrows(owner: string, arrows: Arrow[]): void;
-  showTab(title: string): void;
+  // Replaces the arrows in the view.
+  arrows(arrows: Arrow[]): void;
 }

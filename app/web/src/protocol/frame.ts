@@ -34,12 +34,9 @@ export interface Frame extends Arrays {
   scene: number;
   time: number; // of the run [s]
   stamp: number; // of the newest input that it includes, as the sender set it; 0: none
-  delay: number; // from receipt of that input to this message [s]
-  step: number;
   number: number; // increases by one per frame
   paused: boolean; // paused
   lookedBack: boolean; // an earlier instant
-  diverged: boolean; // the run has diverged
   layers: number;
   bodies: number;
 }
@@ -80,12 +77,9 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
     scene: u32(4),
     time: head.getFloat64(8, true),
     stamp: head.getFloat64(16, true),
-    delay: head.getFloat64(24, true),
-    step: Number(head.getBigUint64(32, true)),
     number: u32(40),
     paused: (flags & 1) !== 0,
     lookedBack: (flags & 2) !== 0,
-    diverged: (flags & 4) !== 0,
     layers,
     bodies,
   };

@@ -2,7 +2,7 @@
 // includes them, tests/cli/test_lab_protocol.py checks the program's messages and commands against them.
 // World frame: z up; metres, seconds, radians, newtons.
 import type { Equation, Inspection, AdjacentBody, PassStep } from './inspection';
-import type { Channel, LegendLine, View } from './run';
+import type { LegendLine, View } from './run';
 
 export type Vector = [number, number, number];
 
@@ -12,11 +12,14 @@ export interface SceneLayer {
   legend: LegendLine[];
 }
 
+// Of a run; coordinate, target and error of a joint have the same `of`.
+type RunKind = 'coordinate' | 'target' | 'error' | 'energy' | 'coupling' | 'contact' | 'position' | 'rate';
+
 export interface SceneChannel {
-  name: string; // "q/arm1"
+  name: string; // "q/arm/joint1", "coupling/pull_arm1"
   unit: string; // SI
-  kind: Channel['kind'] | 'mouse_spring' | 'device' | 'time' | 'variant';
-  of: string;
+  kind: RunKind | 'mouse_spring' | 'device' | 'time' | 'variant';
+  of: string; // joint, coupling, pair, body
 }
 
 export interface SceneBody {
@@ -85,7 +88,6 @@ export interface Divergence {
   words: string[];
   time: number;
   from: number; // a remedy continues from there
-  cause: string; // '': none
   trying: boolean; // remedies are still being tried
   remedies: Remedy[]; // with these the run stays stable for 5 s beyond the stop
 }

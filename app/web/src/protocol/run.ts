@@ -1,14 +1,9 @@
 // Data of a recorded run. World frame: z up, metres, radians; colours sRGB, one byte a channel.
 
-import type { SceneLayer } from './messages';
+import type { SceneChannel, SceneLayer } from './messages';
 
 // A quantity over the frames.
-export interface Channel {
-  name: string; // "q/arm/joint1", "coupling/pull_arm1"
-  unit: string; // SI
-  // Coordinate, target and error of a joint have the same `of`.
-  kind: 'coordinate' | 'target' | 'error' | 'energy' | 'coupling' | 'contact' | 'position' | 'rate';
-  of: string; // joint, coupling, pair, body
+export interface Channel extends SceneChannel {
   values: Float64Array; // one per frame
 }
 
@@ -57,7 +52,6 @@ export interface MeshData {
 export interface View {
   eye: [number, number, number];
   target: [number, number, number];
-  up: [number, number, number];
   fieldOfView: number; // vertical
   light: [number, number, number]; // towards the light
   radius: number; // of the scene
