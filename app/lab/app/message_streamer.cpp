@@ -157,19 +157,17 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   LastSentFrame wanted{now.frame,
                        now.before,
                        greeted_.layers(),
-                       !now.status->playing,
-                       now.status->at.has_value(),
-                       now.status->failure.has_value()};
+                       {sent_frame_.facts.number, !now.status->playing, now.status->at.has_value(),
+                        now.status->failure.has_value()}};
   if (wanted == sent_frame_) return kIdle;
   const Clock::time_point time = Clock::now();
   if (const double left = frames_.wait(time); left > 0) return left;
   frames_.take(time, per_second);
+  ++wanted.facts.number;
   sent_frame_ = std::move(wanted);
   view_->name_rows(*now.rows);
-  const double input_age =
-      now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
-  const FrameFacts facts{++frame_, sent_frame_.paused, sent_frame_.looked_back, sent_frame_.stopped,
-                         input_age};
+  FrameFacts facts = sent_frame_.facts;
+  if (now.frame->input_stamp != 0) facts.input_age = as_seconds(Clock::now() - now.input_came);
   std::unique_lock drawing(view_mutex_);
   std::string frame = view_->frame(*now.frame, now.before.get(), sent_frame_.layers, facts);
   drawing.unlock();

@@ -86,12 +86,11 @@ class MessageStreamer {
   std::vector<LabParameter> parameters_, unchanged_;  // present; of the scene as opened
   long scene_number_ = -1, change_number_ = -1;
   std::uint64_t revision_ = 0;  // of the scene message sent last
-  std::uint32_t frame_ = 0;
-  std::string state_;     // sent last
-  struct LastSentFrame {  // what it was made of
+  std::string state_;           // sent last
+  struct LastSentFrame {        // what it was made of
     std::shared_ptr<const LabFrame> frame, before;
     std::vector<std::string> layers;
-    bool paused = false, looked_back = false, stopped = false;
+    FrameFacts facts;  // without the age of the input
     bool operator==(const LastSentFrame&) const = default;
   };
   LastSentFrame sent_frame_;

@@ -76,6 +76,7 @@ struct FrameFacts {
   // looked_back: an earlier instant is shown; stopped: the run has diverged
   bool paused = false, looked_back = false, stopped = false;
   double input_age = 0;  // since the arrival of the newest input [s]
+  bool operator==(const FrameFacts&) const = default;
 };
 
 class LabView {

@@ -149,10 +149,7 @@ export class Inspector implements Panel {
   }
 
   private show(): void {
-    this.chips.forEach((chip, i) => {
-      chip.setAttribute('aria-current', i === this.at ? 'step' : 'false');
-      chip.classList.toggle('done', i < this.at);
-    });
+    this.chips.forEach((chip, i) => chip.setAttribute('aria-current', i === this.at ? 'step' : 'false'));
     this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === this.pass));
     this.place.textContent = `step ${this.at + 1} of ${this.steps.length}`;
   }

@@ -99,7 +99,6 @@ export class Page implements LabPage {
   select(body: number | null): void {
     if (body === this.selected) return;
     this.selected = body;
-    this.host.dataset.selected = body === null ? '' : (this.scene?.bodies[body]?.name ?? '');
     for (const panel of this.panels) panel.onSelect?.(body);
     this.touch();
   }
