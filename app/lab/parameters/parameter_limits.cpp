@@ -17,7 +17,6 @@
 namespace twinarm {
 namespace {
 
-using LimitState = ParameterLimit::State;
 using IsStable = std::function<bool(double)>;
 
 constexpr double kStride = 4, kTolerance = 1.01, kMargin = 0.25;
@@ -69,11 +68,11 @@ Limit find_limit(double now, double low, double high, bool upward, bool stable_n
   return limit;
 }
 
-LimitState state_of(const Limit& limit, double now) {
-  if (!limit.stable_now) return LimitState::beyond;
-  if (!limit.value) return LimitState::ok;
+std::string_view state_of(const Limit& limit, double now) {
+  if (!limit.stable_now) return "beyond";
+  if (!limit.value) return "ok";
   const double used = limit.is_lower ? *limit.value / now : now / *limit.value;
-  return used > 1 - kMargin ? LimitState::near : LimitState::ok;
+  return used > 1 - kMargin ? "near" : "ok";
 }
 
 ParameterLimit described(const Limit& limit, double now, const std::string& unit, const char* at) {
@@ -155,7 +154,7 @@ class Limits {
         find_limit(now, parameter.low / kBeyond, parameter.high * kBeyond, key.upward,
                    is_positive ? stable_now_ : is_stable(now), is_stable);
     parameter.limit = described(limit, is_positive ? value : 0, parameter.unit, " at this step");
-    if (!stable_now_) parameter.limit->state = LimitState::beyond;
+    if (!stable_now_) parameter.limit->state = "beyond";
   }
 
   // A held force is unstable at low rates: limit of the number of steps between two evaluations.

@@ -16,8 +16,7 @@ LabParameter slider(std::string path, const SliderRow& row, double value, std::s
   parameter.label = row.label;
   parameter.number = value;
   parameter.unit = std::move(unit);
-  parameter.form =
-      row.scale == SliderRow::linear ? LabParameter::Form::linear : LabParameter::Form::log;
+  parameter.form = row.scale == SliderRow::linear ? "linear" : "log";
   parameter.low = row.low;
   parameter.high = row.high;
   parameter.description = row.meaning;
@@ -31,7 +30,7 @@ LabParameter choice(std::string path, std::string label, std::string value,
   parameter.path = std::move(path);
   parameter.label = std::move(label);
   parameter.text = std::move(value);
-  parameter.form = LabParameter::Form::choice;
+  parameter.form = "choice";
   parameter.choices = std::move(choices);
   parameter.description = std::move(description);
   return parameter;
@@ -98,13 +97,10 @@ LabParameter contact_parameter(const SceneDescription& scene) {
   return parameter;
 }
 
-constexpr const char* kStateNames[] = {"ok", "near", "beyond"};
-constexpr const char* kFormNames[] = {"log", "linear", "choice", "number"};
-
 }  // namespace
 
 std::string LabParameter::value() const {
-  if (form == Form::choice) return text;
+  if (form == "choice") return text;
   return number ? number_text(*number) : "";
 }
 
@@ -142,20 +138,19 @@ void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& j
     json.begin_object();
     json.members(
         {{"path", parameter.path}, {"label", parameter.label}, {"group", parameter.group}});
-    parameter.form == LabParameter::Form::choice ? json.put("value", parameter.text)
-                                                 : json.put("value", parameter.number);
+    parameter.form == "choice" ? json.put("value", parameter.text)
+                               : json.put("value", parameter.number);
     if (parameter.initial) json.key("start").text(*parameter.initial);
     json.members({{"unit", parameter.unit},
-                  {"form", kFormNames[static_cast<std::size_t>(parameter.form)]},
+                  {"form", parameter.form},
                   {"low", parameter.low},
                   {"high", parameter.high},
                   {"choices", parameter.choices},
                   {"meaning", parameter.description}});
     if (parameter.limit)
-      json.key("limit").object(
-          {{"value", parameter.limit->value},
-           {"words", parameter.limit->words},
-           {"state", kStateNames[static_cast<std::size_t>(parameter.limit->state)]}});
+      json.key("limit").object({{"value", parameter.limit->value},
+                                {"words", parameter.limit->words},
+                                {"state", parameter.limit->state}});
     if (!parameter.tracking_error.empty()) json.put("tracking_error", parameter.tracking_error);
     json.members({{"restarts", parameter.resets_state}, {"folded", parameter.is_folded}});
     json.end_object();

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/data/json_writer.h"
@@ -19,15 +20,12 @@
 namespace twinarm {
 
 struct ParameterLimit {
-  enum class State { ok, near, beyond };  // near: more than three quarters of it
-  std::optional<double> value;            // none: any value is stable, or no value
+  std::optional<double> value;  // none: any value is stable, or no value
   std::string words;
-  State state = State::ok;
+  std::string_view state = "ok";  // "near": more than three quarters of it; "beyond"
 };
 
 struct LabParameter {
-  // log, linear: sliders from low to high; number: typed; choice: one of `choices`.
-  enum class Form { log, linear, choice, number };
   std::string path, label, group;
   // Of a coupling: its index in the scene, -1 for all, and its key.
   std::optional<int> coupling;
@@ -37,7 +35,8 @@ struct LabParameter {
   // VALUE in the scene as opened; empty: not given there; none: that scene has no such parameter.
   std::optional<std::string> initial;
   std::string unit;
-  Form form = Form::number;
+  // log, linear: sliders from low to high; number: typed; choice: one of `choices`.
+  std::string_view form = "number";
   double low = 0, high = 0;  // of the slider; the value may lie outside
   std::vector<std::string> choices;
   std::string description;

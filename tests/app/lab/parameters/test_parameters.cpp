@@ -30,7 +30,7 @@ TEST_CASE("parameters: each end of a range and each choice gives a scene that ru
                            "pendulum.toml", "incline.toml", "bouncing_ball.toml"})
     for (const LabParameter& parameter : parameters_of(planned(folder / name, {}))) {
       std::vector<std::string> values = parameter.choices;
-      if (parameter.form != LabParameter::Form::choice) {
+      if (parameter.form != "choice") {
         CHECK(parameter.low < parameter.high);
         values = {fmt::format("{}", parameter.low), fmt::format("{}", parameter.high)};
       }
@@ -50,9 +50,9 @@ TEST_CASE("parameters: each has a label, a group, a description, and its value a
       CHECK(!parameter.label.empty());
       CHECK(!parameter.group.empty());
       CHECK(parameter.description.size() > 20);
-      if (parameter.form == LabParameter::Form::choice && !parameter.text.empty())
+      if (parameter.form == "choice" && !parameter.text.empty())
         CHECK(std::count(parameter.choices.begin(), parameter.choices.end(), parameter.text) == 1);
-      if (parameter.form == LabParameter::Form::log) CHECK(parameter.low > 0);
+      if (parameter.form == "log") CHECK(parameter.low > 0);
     }
 }
 
@@ -120,7 +120,7 @@ TEST_CASE(
     REQUIRE(parameter.limit);
     REQUIRE(parameter.limit->value);
     const double limit = *parameter.limit->value;
-    CHECK(parameter.limit->state == ParameterLimit::State::ok);
+    CHECK(parameter.limit->state == "ok");
     INFO(limit);
     CHECK(is_stable(text, fmt::format("{}={}", c.path, 0.9 * limit)));
     CHECK(!is_stable(text, fmt::format("{}={}", c.path, 1.15 * limit)));
@@ -152,15 +152,15 @@ TEST_CASE("parameters: `near` within a quarter of the limit; beyond it the stabl
   const auto with = [&](double part) {
     return limit_at({fmt::format("coupling.stiffness={}", part * *at_start.value)});
   };
-  CHECK(with(0.70).state == ParameterLimit::State::ok);
-  CHECK(with(0.80).state == ParameterLimit::State::near);
-  CHECK(with(1.30).state == ParameterLimit::State::beyond);
+  CHECK(with(0.70).state == "ok");
+  CHECK(with(0.80).state == "near");
+  CHECK(with(1.30).state == "beyond");
   // From above the limit is the same.
   CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
   CHECK(!with(1.30).words.empty());
   const ParameterLimit implicit = limit_at({"coupling.discretization=implicit"});
   CHECK(!implicit.value);
-  CHECK(implicit.state == ParameterLimit::State::ok);
+  CHECK(implicit.state == "ok");
   CHECK(!implicit.words.empty());
 }
 
@@ -173,8 +173,8 @@ TEST_CASE("parameters: in an unstable scene only those that stabilise it alone h
   const double limit = *parameter_at(at_start, "coupling[0].stiffness").limit->value;
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
   const std::vector<LabParameter> one = predicted(text, {too_stiff});
-  CHECK(parameter_at(one, "coupling[0].stiffness").limit->state == ParameterLimit::State::beyond);
-  CHECK(parameter_at(one, "step").limit->state == ParameterLimit::State::beyond);
+  CHECK(parameter_at(one, "coupling[0].stiffness").limit->state == "beyond");
+  CHECK(parameter_at(one, "step").limit->state == "beyond");
   CHECK(parameter_at(one, "step").limit->value);
   CHECK_FALSE(parameter_at(one, "coupling[1].stiffness").limit);
   CHECK_FALSE(parameter_at(one, "coupling[1].damping").limit);
