@@ -41,10 +41,6 @@ LabSession::LabSession(BuildResult scene, const std::vector<GalleryScene>& galle
   thread_ = std::thread([this] { work(); });
 }
 
-LabSession::~LabSession() {
-  end();
-}
-
 void LabSession::end() {
   if (!state_.inbox.stop()) return;
   thread_.join();

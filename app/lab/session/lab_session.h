@@ -53,7 +53,7 @@ class LabSession {
   // The gallery must outlive it. `max_bytes`: of the history.
   LabSession(BuildResult scene, const std::vector<GalleryScene>& gallery,
              std::size_t max_bytes = LabHistory::kMaxBytes);
-  ~LabSession();
+  ~LabSession() { end(); }
   void end();  // stops its threads; shown() keeps the last state
 
   // From any thread.

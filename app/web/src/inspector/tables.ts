@@ -38,7 +38,6 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
       const ratio = normal ? `, |Ft|/N ${short((friction ?? 0) / normal)}` : '';
       return element(
         'div.contact',
-        { 'data-contact': name },
         element('h4', name.replace('contact/', '')),
         element('p', `normal force N ${short(normal)} N, friction |Ft| ${short(friction)} N${ratio}`),
         unique === false ? element('p.hint', NOT_UNIQUE) : '',

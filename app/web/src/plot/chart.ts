@@ -49,7 +49,7 @@ export class Chart {
     const names = spec.curves.map(({ name }) => name).join(', ');
     this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
     this.root = element('section.plot', { id: `plot-${spec.id}` }, head, this.canvas, legend);
-    this.gestures = new Gestures(this.canvas, () => this.chart, () => this.at, (time) => plots.seek(time));
+    this.gestures = new Gestures(this.canvas, () => this.chart, () => this.at, (time) => plots.source.look(time));
   }
 
   remake(): void {

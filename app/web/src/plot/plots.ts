@@ -39,7 +39,7 @@ export class Plots implements Panel {
   private marked: number | null = null;
   private reviewedAt = 0;
 
-  constructor(private readonly source: RunSource) {
+  constructor(readonly source: RunSource) {
     this.pick.addEventListener('change', () => this.choose(this.pick.value));
     this.root.append(this.bar.root, this.list, element('section.pick', this.pick, this.picked));
   }
@@ -86,9 +86,6 @@ export class Plots implements Panel {
     this.window = window;
     this.bar.showPaused(window !== null);
     this.refresh();
-  }
-  seek(time: number): void {
-    this.source.look(time);
   }
   saveCsv(what: string, columns: CsvColumn[]): void {
     const { store, scene } = this.record!;
