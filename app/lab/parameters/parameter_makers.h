@@ -10,7 +10,8 @@
 
 namespace twinarm::parameter_makers {
 
-LabParameter slider(std::string path, const SliderRow& row, double value, std::string unit);
+LabParameter slider(std::string path, const SliderRow& row, double value, std::string unit,
+                    std::string group = "");
 LabParameter choice(std::string path, std::string label, std::string value,
                     std::vector<std::string> choices, std::string description);
 inline std::string item(const char* list, std::size_t index, const char* key) {

@@ -10,10 +10,12 @@
 namespace twinarm {
 namespace parameter_makers {
 
-LabParameter slider(std::string path, const SliderRow& row, double value, std::string unit) {
+LabParameter slider(std::string path, const SliderRow& row, double value, std::string unit,
+                    std::string group) {
   LabParameter parameter;
   parameter.path = std::move(path);
   parameter.label = row.label;
+  parameter.group = std::move(group);
   parameter.number = value;
   parameter.unit = std::move(unit);
   parameter.form = row.scale == SliderRow::linear ? "linear" : "log";

@@ -11,17 +11,11 @@ namespace {
 
 constexpr std::size_t kManyBodies = 8;
 
-LabParameter parameter_of(const SurfaceKey& key, std::string path, double value,
-                          std::string group) {
-  LabParameter parameter = slider(std::move(path), key.slider, value, key.unit);
-  parameter.group = std::move(group);
-  return parameter;
-}
-
 void add_surface(const SceneDescription& scene, const SurfaceKey& key,
                  std::vector<LabParameter>& parameters) {
   const auto add = [&](std::string path, const auto& owner, const std::string& group) {
-    parameters.push_back(parameter_of(key, std::move(path), owner.surface.*key.member, group));
+    parameters.push_back(
+        slider(std::move(path), key.slider, owner.surface.*key.member, key.unit, group));
   };
   for (std::size_t i = 0; i < scene.robots.size(); ++i)
     if (scene.robots[i].collide)
@@ -54,8 +48,8 @@ void add_link_masses(const RobotInScene& robot, const std::string& own,
       if (warning.where == link_called(link.name)) meaning += " Warning: " + warning.problem + ".";
     const SliderRow row{link.name.c_str(), 0.05, 20, meaning.c_str()};
     parameters.push_back(slider(own + "mass_scale." + link.name, row,
-                                scale == robot.mass_scale.end() ? 1 : scale->second, "times"));
-    parameters.back().group = robot.name + ": masses";
+                                scale == robot.mass_scale.end() ? 1 : scale->second, "times",
+                                robot.name + ": masses"));
     parameters.back().is_folded = scale == robot.mass_scale.end();
   }
 }
@@ -72,16 +66,16 @@ void add_surfaces(const SceneModel& model, std::vector<LabParameter>& parameters
     const PairDescription& pair = scene.pairs[i];
     for (const SurfaceKey& key : surface_keys())
       if (key.slider.label && key.of_pair && !key.is_of_compliant && pair.*key.of_pair)
-        parameters.push_back(parameter_of(key, item("pair", i, key.key), *(pair.*key.of_pair),
-                                          pair.a + " on " + pair.b));
+        parameters.push_back(slider(item("pair", i, key.key), key.slider, *(pair.*key.of_pair),
+                                    key.unit, pair.a + " on " + pair.b));
   }
 }
 
 void add_masses(const SceneDescription& scene, std::vector<LabParameter>& parameters) {
   const auto put = [&](std::string path, const std::string& label, double value, const char* unit,
                        double low, double high, const std::string& group, const char* meaning) {
-    parameters.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));
-    parameters.back().group = group;
+    parameters.push_back(
+        slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit, group));
   };
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const RobotInScene& robot = scene.robots[i];

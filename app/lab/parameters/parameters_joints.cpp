@@ -35,8 +35,8 @@ void add_group(const SceneModel& model, std::size_t robot, const Group& group, R
     const bool slides = joint.type == JointDescription::Type::prismatic;
     const auto [row, value] = row_of(joint, static_cast<std::size_t>(body));
     parameters.push_back(slider(item("robot", robot, group.key) + "." + joint.name, row, value,
-                                slides ? group.unit : group.turning_unit));
-    parameters.back().group = of.name + ": " + group.name;
+                                slides ? group.unit : group.turning_unit,
+                                of.name + ": " + group.name));
     parameters.back().is_folded = group.is_folded;
   }
 }
