@@ -81,8 +81,7 @@ Errors balance_errors(const Inspection& in) {
 }
 
 std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& tolerances) {
-  const SubtreeErrors subtree = subtree_errors(in);
-  const WholeErrors whole = whole_errors(in);
+  const ReferenceErrors reference = reference_errors(in);
   std::vector<Check> checks;
   const auto add = [&](const char* name, const char* meaning, const Errors& errors,
                        double tolerance) {
@@ -90,14 +89,14 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
   };
   const double algebra = tolerances.algebra;
   add("v", "rate of the poses, by dual numbers", velocity_errors(in), algebra);
-  add("D", "Schur complement of M: descendants free (CRBA)", subtree.D, algebra);
-  add("U", "wrench for unit qdd, descendants free (CRBA, RNEA)", subtree.U, algebra);
-  add("pA", "wrench for a = 0, descendants free (CRBA, RNEA)", subtree.pA, algebra);
-  add("u", "net joint force for a = 0 (CRBA, RNEA)", subtree.u, algebra);
-  add("qdd", "M qdd + h = tau (CRBA, RNEA)", whole.qdd, algebra);
-  add("a", "accelerations from qdd (RNEA)", whole.a, algebra);
-  add("tau", "joint forces from qdd (RNEA)", whole.tau, algebra);
-  add("f", "wrenches through joints, IA a + pA (RNEA)", whole.f, algebra);
+  add("D", "Schur complement of M: descendants free (CRBA)", reference.D, algebra);
+  add("U", "wrench for unit qdd, descendants free (CRBA, RNEA)", reference.U, algebra);
+  add("pA", "wrench for a = 0, descendants free (CRBA, RNEA)", reference.pA, algebra);
+  add("u", "net joint force for a = 0 (CRBA, RNEA)", reference.u, algebra);
+  add("qdd", "M qdd + h = tau (CRBA, RNEA)", reference.qdd, algebra);
+  add("a", "accelerations from qdd (RNEA)", reference.a, algebra);
+  add("tau", "joint forces from qdd (RNEA)", reference.tau, algebra);
+  add("f", "wrenches through joints, IA a + pA (RNEA)", reference.f, algebra);
   add("balance", "sum of the wrenches on each body is zero", balance_errors(in), algebra);
   add("momentum", "rate of momentum of each body, by differences", momentum_errors(in),
       tolerances.momentum);

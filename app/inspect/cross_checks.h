@@ -47,14 +47,10 @@ using Errors = std::vector<double>;
 Errors velocity_errors(const Inspection& in);
 Errors momentum_errors(const Inspection& in);
 Errors balance_errors(const Inspection& in);
-struct SubtreeErrors {
-  Errors D, U, u, pA;
+struct ReferenceErrors {  // by CRBA and RNEA
+  Errors D, U, u, pA, tau, a, f, qdd;
 };
-SubtreeErrors subtree_errors(const Inspection& in);
-struct WholeErrors {
-  Errors tau, a, f, qdd;
-};
-WholeErrors whole_errors(const Inspection& in);
+ReferenceErrors reference_errors(const Inspection& in);
 struct NamedError {
   std::string name;  // of the constraint or mimic joint
   double error;

@@ -1,4 +1,4 @@
-// D, U, u and pA from the equations of motion of each subtree.
+// D, U, u and pA from the equations of motion of each subtree; tau, a, f and qdd from those of all.
 #include <Eigen/Core>
 #include <algorithm>
 #include <tuple>
@@ -223,22 +223,7 @@ double load_on(const Inspection& in, const CrbaRneaReference::Result& without_qd
 
 }  // namespace
 
-SubtreeErrors subtree_errors(const Inspection& in) {
-  CrbaRneaReference reference(in);
-  const CrbaRneaReference::Result without_qdd =
-      reference.inverse(Eigen::VectorXd::Zero(reference.M().rows()));
-  const Errors zero(in.body_count());
-  SubtreeErrors errors{zero, zero, zero, zero};
-  for (std::size_t i = 1; i < in.body_count(); ++i) {
-    const Subtree subtree(in, reference, i);
-    errors.D[i] = subtree.D_error();
-    errors.U[i] = subtree.U_error();
-    std::tie(errors.u[i], errors.pA[i]) = subtree.bias_errors(load_on(in, without_qdd, i));
-  }
-  return errors;
-}
-
-WholeErrors whole_errors(const Inspection& in) {
+ReferenceErrors reference_errors(const Inspection& in) {
   CrbaRneaReference reference(in);
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
   const Eigen::Map<const Eigen::VectorXd> qdd(in.w.qdd.data(), nv), tau(in.forces.tau.data(), nv);
@@ -246,12 +231,17 @@ WholeErrors whole_errors(const Inspection& in) {
                                   without_qdd = reference.inverse(Eigen::VectorXd::Zero(nv));
   const Eigen::VectorXd M_qdd = reference.M() * qdd;
   const Errors zero(in.body_count());
-  WholeErrors errors{zero, zero, zero, zero};
+  ReferenceErrors errors{zero, zero, zero, zero, zero, zero, zero, zero};
   for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const Subtree subtree(in, reference, i);
+    errors.D[i] = subtree.D_error();
+    errors.U[i] = subtree.U_error();
+    const double own_load = load_on(in, without_qdd, i);
+    std::tie(errors.u[i], errors.pA[i]) = subtree.bias_errors(own_load);
     const auto first = static_cast<Eigen::Index>(in.model.iv[i]);
     const auto count = static_cast<Eigen::Index>(in.model.dofs(i));
     const Vector6 f = as_vector(with_qdd.f[i]);
-    const double load = std::max(load_on(in, without_qdd, i), size_of(f));
+    const double load = std::max(own_load, size_of(f));
     if (count > 0) {
       const Eigen::VectorXd t = tau.segment(first, count);
       const double size = std::max(size_of(t), load);

@@ -10,7 +10,7 @@ namespace twinarm {
 namespace {
 
 void write_bodies(const Inspection& in, const InspectView& view, int pass,
-                  const SubtreeErrors& errors, Sheet& sheet) {
+                  const ReferenceErrors& errors, Sheet& sheet) {
   static constexpr std::array titles{
       "PASS 1, base to tips: velocities, velocity-product accelerations, bias forces",
       "PASS 2, tips to base: articulated-body inertias and bias forces",
@@ -127,7 +127,7 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
   sheet.line(view.title);
   if (!view.forces_alone) {
     sheet.line("Spatial vectors: angular | linear, in the link's axes, about the link's origin.");
-    const SubtreeErrors errors = subtree_errors(in);
+    const ReferenceErrors errors = reference_errors(in);
     for (const int pass : view.passes) write_bodies(in, view, pass, errors, sheet);
     write_balances(in, view, sheet);
   }
