@@ -154,9 +154,7 @@ NamedWrench Viewpoint::see(const Inspection& in, std::size_t body, NamedWrench w
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from) {
   std::vector<NamedForce> all;
   for (const AppliedForce& actor : in.actors) {
-    NamedForce named{
-        actor.source,   {}, {}, actor.point_W, actor.normal_W, std::nullopt, actor.is_interaction,
-        actor.is_unique};
+    NamedForce named{&actor, {}, {}, std::nullopt};
     for (const AppliedForce::OnBody& on : actor.bodies) {
       const Force<double> f = in.force_of(on);
       const Matrix3& R = in.k.R_WB[on.body];

@@ -38,7 +38,7 @@ struct Viewpoint {
 
 // Coupling, contact, constraint, applied wrench or joint force, with its value on each body.
 struct NamedForce {
-  std::string source;
+  const AppliedForce* force;  // of Inspection::actors
   struct End {
     std::size_t body;
     NamedWrench wrench;  // on it
@@ -50,14 +50,11 @@ struct NamedForce {
     double value;           // [N m, N]
   };
   std::vector<OnJoint> joints;
-  std::optional<Vector3> point;   // where it acts, world
-  std::optional<Vector3> normal;  // of a contact, towards its second body, world
   // Of a contact: normal and tangential force [N].
   struct Parts {
     double normal, friction;
   };
   std::optional<Parts> parts;
-  bool is_interaction = false, is_unique = true;  // as in AppliedForce
 };
 // In the order of Inspection::actors.
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from);

@@ -32,7 +32,8 @@ struct AppliedForce {
   std::string source;  // as in the energy balance: "wrench/0", "coupling/NAME"
   std::vector<OnBody> bodies;
   std::vector<OnJoint> joints;
-  std::optional<Vector3> point_W{}, normal_W{};  // point of application; normal of a contact
+  // Point of application; normal of a contact, towards its second body.
+  std::optional<Vector3> point_W{}, normal_W{};
   bool is_interaction = false;  // coupling, contact, constraint or wrench; not within a joint
   bool is_unique = true;        // false: other constraint forces give the same accelerations
 };

@@ -77,7 +77,7 @@ std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& 
   std::vector<NamedForce> all = named_forces(in, view.from);
   if (view.forces_alone)
     std::erase_if(all, [&](const NamedForce& named) {
-      return std::ranges::find(view.forces, named.source) == view.forces.end();
+      return std::ranges::find(view.forces, named.force->source) == view.forces.end();
     });
   return all;
 }
@@ -102,17 +102,17 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
   std::vector<NamedForce> all = forces_in_view(in, view);
   if (!view.forces_alone)
     std::erase_if(all, [&](const NamedForce& named) {
-      return !named.is_interaction || !acts_in_view(view, named);
+      return !named.force->is_interaction || !acts_in_view(view, named);
     });
   if (all.empty()) return;
   sheet.title("NAMED FORCES on moving bodies: force [N] | torque [N m]", viewpoint_text(view));
   for (const NamedForce& named : all) {
-    std::string head = "\n" + named.source;
-    if (named.point) head += " at " + point_text(*named.point);
+    std::string head = "\n" + named.force->source;
+    if (named.force->point_W) head += " at " + point_text(*named.force->point_W);
     if (named.parts)
       head += fmt::format(": normal {} N, friction {} N", short_number(named.parts->normal),
                           short_number(named.parts->friction, named.parts->normal));
-    if (!named.is_unique) head += " *";
+    if (!named.force->is_unique) head += " *";
     sheet.line(head);
     for (const NamedForce::End& end : named.ends)
       sheet.row("on " + in.model.body_name[end.body], six_of(end.wrench),
@@ -121,7 +121,7 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
       sheet.line(fmt::format("      along {}: {} {}", dof_label(in, on.body, on.dof),
                              short_number(on.value), force_unit(in, on.body)));
   }
-  if (!std::ranges::all_of(all, &NamedForce::is_unique))
+  if (!std::ranges::all_of(all, [](const NamedForce& named) { return named.force->is_unique; }))
     sheet.line(wrapped(
         "\n* not unique: other values of these constraint forces give the same accelerations; "
         "their sum on each body is determined"));

@@ -72,12 +72,12 @@ void write_balances(JsonWriter& json, const Inspection& in, const InspectView& v
 void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.list(forces_in_view(in, view), [&](const NamedForce& named) {
     json.begin_object();
-    json.key("source").text(named.source);
-    if (named.point) json.key("point").vector(*named.point);
-    if (named.normal) json.key("axis").vector(*named.normal);
+    json.key("source").text(named.force->source);
+    if (named.force->point_W) json.key("point").vector(*named.force->point_W);
+    if (named.force->normal_W) json.key("axis").vector(*named.force->normal_W);
     if (named.parts)
       json.members({{"normal", named.parts->normal}, {"friction", named.parts->friction}});
-    if (named.is_interaction) json.put("unique", named.is_unique);
+    if (named.force->is_interaction) json.put("unique", named.force->is_unique);
     json.key("on").list(named.ends, [&](const NamedForce::End& end) {
       json.object({{"body", in.model.body_name[end.body]},
                    {"force", end.wrench.force},

@@ -71,7 +71,7 @@ TEST_CASE("torque of a weight about the centre of mass and of a force about its 
   from.axes = Viewpoint::Axes::body;
   from.axes_of = 3;
   const NamedForce named = named_forces(in, from).at(0);
-  CHECK(named.source == "wrench/0");
+  CHECK(named.force->source == "wrench/0");
   REQUIRE(named.ends.size() == 1);
   CHECK((named.ends[0].wrench.force - in.k.X_WL[3].R.transpose() * f).norm() < 1e-12);
   CHECK(named.ends[0].wrench.torque.norm() < 1e-12);
