@@ -174,9 +174,8 @@ class ScheduledLab {
         status.playing = false;
         state_.loop.request_steps(0);
         if (const PostMortem* found = state_.loop.run().post_mortem())
-          status.failure =
-              RunFailure{found->time, found->time, found->words,
-                         "",          false,       fixes_of(state_.loop.run().prepared(), *found)};
+          status.failure = RunFailure{found->time, found->time, found->words, false,
+                                      fixes_of(state_.loop.run().prepared(), *found)};
       }
     }
     reporter_.publish();
