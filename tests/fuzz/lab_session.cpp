@@ -164,7 +164,7 @@ class ScheduledLab {
     LabStatus& status = state_.status;
     Inbox::Contents contents = state_.inbox.take();
     for (const LabCommand& command : contents.commands) noted([&] { commands_.act(command); });
-    if (contents.refused) state_.pending.finish(*contents.refused);
+    if (contents.refused) state_.finish(*contents.refused);
     for (BuildResult& built : contents.built)
       if (noted([&] { commands_.adopt(std::move(built)); })) reporter_.publish();
     if (state_.loop.has_single_steps() || status.playing) {

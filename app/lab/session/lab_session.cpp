@@ -96,7 +96,7 @@ void LabSession::take_inbox() {
       note("error", error.what());
     }
   if (contents.tried) offer(std::move(*contents.tried));
-  if (contents.refused) state_.pending.finish(*contents.refused);
+  if (contents.refused) state_.finish(*contents.refused);
   for (BuildResult& one : contents.built) {
     const auto done = one.request.done;
     try {

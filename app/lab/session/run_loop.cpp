@@ -54,8 +54,8 @@ bool RunLoop::take_step() {
   return goes_on;
 }
 
-RunLoop::Cost RunLoop::take_cost() {
-  const Cost cost{steps_ > 0 ? cpu_ / static_cast<double>(steps_) : 0, longest_cpu_};
+std::pair<double, double> RunLoop::take_cost() {
+  const std::pair cost{steps_ > 0 ? cpu_ / static_cast<double>(steps_) : 0, longest_cpu_};
   cpu_ = longest_cpu_ = 0;
   steps_ = 0;
   return cost;

@@ -114,10 +114,8 @@ class RunLoop {
   // after each. False: the run has stopped.
   bool take_steps(const std::function<void()>& after);
 
-  struct Cost {                    // processor time since the last call [s]
-    double mean = 0, longest = 0;  // of a step
-  };
-  Cost take_cost();
+  // Mean and longest processor time of a step since the last call [s].
+  std::pair<double, double> take_cost();
 
  private:
   bool take_step();

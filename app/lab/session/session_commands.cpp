@@ -57,7 +57,7 @@ void SessionCommands::act(const LabCommand& command) {
   } else if (what == "reset") {
     request(BuildRequest::What::reset);
   } else if (what == "reset_parameters") {
-    s_.pending.add({0, true, {}});
+    s_.add({0, true, {}});
     request(BuildRequest::What::change);
   } else {
     act_on_input(command);
@@ -118,7 +118,7 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
     pending.changes.push_back(change);
   }
   const bool is_restart = std::ranges::any_of(pending.changes, is_of_start);
-  s_.pending.add(std::move(pending));
+  s_.add(std::move(pending));
   if (is_restart) return request(BuildRequest::What::reset);
   if (!at) return request(BuildRequest::What::change);
   s_.status.playing = false;
@@ -162,7 +162,7 @@ BuildRequest SessionCommands::request_of(BuildRequest::What what) const {
   request.name = now->request.name;
   request.words = now->request.words;
   request.changes = s_.status.changes;
-  request.pending = s_.pending.all();
+  request.pending = s_.pending;
   request.variants = now->request.variants;
   return request;
 }
@@ -184,7 +184,7 @@ Timeline::Frame SessionCommands::start_of(const BuildRequest& request) {
 
 void SessionCommands::adopt(BuildResult built) {
   const BuildRequest request = built.request;
-  if (!request.pending.empty()) s_.pending.finish(request.pending.back().number);
+  if (!request.pending.empty()) s_.finish(request.pending.back().number);
   const bool goes_on =
       request.what == BuildRequest::What::change || request.what == BuildRequest::What::branch;
   if (goes_on && built.scene != s_.timeline.scene()->scene) return;  // another scene was opened

@@ -1,6 +1,8 @@
 #include "app/lab/session/session_status.h"
 
 #include <algorithm>
+#include <deque>
+#include <tuple>
 #include <utility>
 
 namespace twinarm {
@@ -46,10 +48,9 @@ void StatusReporter::add_frame() {
   const LabNames& names = state_.loop.names();
   if (!rows_ || *rows_ != names.rows)
     rows_ = std::make_shared<const std::vector<std::string>>(names.rows);
-  const RunLoop::Cost cost = state_.loop.take_cost();
+  std::tie(status.step_time, frame.longest_step) = state_.loop.take_cost();
   frame.pace = status.pace = state_.loop.pace_factor();
-  frame.longest_step = cost.longest;
-  frame.step_time = status.step_time = cost.mean;
+  frame.step_time = status.step_time;
   shown_input_came_ = state_.input_came;
   state_.timeline.add(std::move(frame), names);
 }

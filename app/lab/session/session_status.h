@@ -5,7 +5,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,25 +19,6 @@
 namespace twinarm {
 
 // State of the run's thread, shared by the parts of the session.
-
-// Requested changes that are neither built nor refused yet.
-class PendingChanges {
- public:
-  void add(PendingChange change) {
-    change.number = ++count_;
-    pending_.push_back(std::move(change));
-  }
-  void finish(long number) {
-    while (!pending_.empty() && pending_.front().number <= number) pending_.pop_front();
-  }
-  void clear() { pending_.clear(); }
-  std::vector<PendingChange> all() const { return {pending_.begin(), pending_.end()}; }
-
- private:
-  std::deque<PendingChange> pending_;
-  long count_ = 0;
-};
-
 struct SessionState {
   explicit SessionState(std::size_t max_bytes) : timeline(max_bytes), loop(timeline) {}
   Inbox inbox;        // thread-safe
@@ -46,12 +26,21 @@ struct SessionState {
   OperatorInput hand;
   RunLoop loop;
   LabStatus status;
-  PendingChanges pending;
+  std::vector<PendingChange> pending;                  // requested, neither built nor refused yet
+  long pending_count = 0;                              // of all that were requested
   long change_number = 0;                              // counts runs
   double changed_at = 0;                               // run time [s]
   bool is_stale = true;                                // the run is beyond the newest frame
   bool has_news = true;                                // not visible in frames
   std::chrono::steady_clock::time_point input_came{};  // of the newest input
+
+  void add(PendingChange change) {
+    change.number = ++pending_count;
+    pending.push_back(std::move(change));
+  }
+  void finish(long number) {  // the changes up to this one
+    std::erase_if(pending, [=](const PendingChange& change) { return change.number <= number; });
+  }
 };
 
 // Whether the variants differ by this parameter.

@@ -87,10 +87,6 @@ export class Page implements LabPage {
     requestAnimationFrame((now) => this.tick(now));
   }
 
-  get hasControl(): boolean {
-    return this.operator.hasControl;
-  }
-
   send(command: wire.Command): boolean {
     if (!NO_CONTROL.has(command.do) && !this.operator.requestControl()) return false;
     return this.link.send(command);
@@ -210,7 +206,7 @@ export class Page implements LabPage {
     if (state) {
       const wasRequested = this.state?.control_requests.includes(this.state.you);
       this.state = state;
-      if (wasRequested && this.hasControl) this.showMessage('You have control now.');
+      if (wasRequested && this.operator.hasControl) this.showMessage('You have control now.');
       for (const listener of this.listeners) listener.onState?.(state);
       this.address.onState(this);
     }

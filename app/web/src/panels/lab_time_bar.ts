@@ -78,10 +78,10 @@ export class LabTimeBar implements Panel, Clock {
 
   // The end is the present. Seeking pauses the run, or the instant would move relative to the slider.
   seek(time: number): void {
-    const { state, hasControl } = this.page;
+    const { state, operator } = this.page;
     if (!state) return;
     const isNow = time >= state.last - 0.0005 * (state.last - state.first);
-    if (!isNow && state.playing && hasControl) this.page.send({ do: 'play', on: false });
+    if (!isNow && state.playing && operator.hasControl) this.page.send({ do: 'play', on: false });
     this.rewind.look(isNow ? null : Math.max(state.first, time));
   }
 

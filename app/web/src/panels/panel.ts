@@ -4,6 +4,7 @@
 // onFrame and draw when the next picture is made, onFrame with the newest frame only. A hidden panel gets
 // all calls but draw.
 import type { BodyInspection } from '../protocol/messages';
+import type { Operator } from '../input/operator';
 import type { Arrow } from '../view/arrows';
 import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';
 
@@ -27,8 +28,7 @@ export interface LabPage {
   readonly state: StateMessage | null; // the newest
   readonly frame: Frame | null; // the newest of the scene
   readonly selected: number | null; // body
-  readonly operator: { readonly isGripperClosed: boolean; button(index: 0 | 1, down: boolean): void };
-  readonly hasControl: boolean;
+  readonly operator: Pick<Operator, 'hasControl' | 'isGripperClosed' | 'button'>;
   // Requests control first, if the command needs it and no client has it. False: not sent.
   send(command: Command): boolean;
   select(body: number | null): void;

@@ -47,10 +47,7 @@ export class Link {
       return found === undefined ? null : (JSON.parse(found) as T);
     };
     const state = text<StateMessage>('state');
-    if (state) {
-      state.controller ||= null; // 0: no client
-      this.isPlaying = state.playing;
-    }
+    if (state) this.isPlaying = state.playing;
     const news = {
       scene: text<SceneMessage>('scene'),
       state,

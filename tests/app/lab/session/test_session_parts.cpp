@@ -77,11 +77,11 @@ TEST_CASE("inbox: a note is cut at 4000 bytes, between two characters") {
 }
 
 TEST_CASE("pending changes: finished by a number not below theirs") {
-  PendingChanges pending;
-  for (int n = 0; n < 3; ++n) pending.add({});
-  pending.finish(2);
-  REQUIRE(pending.all().size() == 1);
-  CHECK(pending.all().front().number == 3);
+  SessionState state(LabHistory::kMaxBytes);
+  for (int n = 0; n < 3; ++n) state.add({});
+  state.finish(2);
+  REQUIRE(state.pending.size() == 1);
+  CHECK(state.pending.front().number == 3);
 }
 
 }  // namespace
