@@ -100,7 +100,7 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
   add("balance", "sum of the wrenches on each body is zero", balance_errors(in), algebra);
   add("momentum", "rate of momentum of each body, by differences", momentum_errors(in),
       tolerances.momentum);
-  const std::vector<NamedError> loops = loop_errors(in);
+  const auto loops = loop_errors(in);
   if (loops.empty()) return checks;
   Check closed{"loops", "loop closure g'' = 0, by differences of poses", 0, tolerances.loops, ""};
   for (const auto& [name, error] : loops)

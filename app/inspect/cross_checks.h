@@ -21,6 +21,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/inspect/inspection.h"
@@ -51,11 +52,8 @@ struct ReferenceErrors {  // by CRBA and RNEA
   Errors D, U, u, pA, tau, a, f, qdd;
 };
 ReferenceErrors reference_errors(const Inspection& in);
-struct NamedError {
-  std::string name;  // of the constraint or mimic joint
-  double error;
-};
-std::vector<NamedError> loop_errors(const Inspection& in);
+// With the name of the constraint or mimic joint.
+std::vector<std::pair<std::string, double>> loop_errors(const Inspection& in);
 
 // q exp(by qd) of every joint, prescribed motions included.
 template <class S>

@@ -133,14 +133,14 @@ std::vector<LoopClosure> with_mimics(const Model<double>& model, std::vector<Loo
 
 }  // namespace
 
-std::vector<NamedError> loop_errors(const Inspection& in) {
-  std::vector<NamedError> errors;
+std::vector<std::pair<std::string, double>> loop_errors(const Inspection& in) {
+  std::vector<std::pair<std::string, double>> errors;
   const std::vector<LoopClosure> loops = with_mimics(in.model, in.loops);
   if (loops.empty()) return errors;
   const double scale = max_specific_force(in);
   Kinematics k = in.k;
   for (const LoopClosure& loop : loops)
-    errors.push_back({loop.name, loop_error(in, loop, scale, k)});
+    errors.emplace_back(loop.name, loop_error(in, loop, scale, k));
   return errors;
 }
 

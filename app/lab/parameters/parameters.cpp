@@ -106,11 +106,6 @@ std::string LabParameter::value() const {
   return number ? number_text(*number) : "";
 }
 
-std::string LabParameter::change() const {
-  const std::string now = value();
-  return now.empty() ? "" : path + "=" + now;
-}
-
 void set_initial_values(const std::vector<LabParameter>& unchanged,
                         std::vector<LabParameter>& parameters) {
   std::unordered_map<std::string_view, const LabParameter*> before;

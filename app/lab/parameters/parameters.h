@@ -47,8 +47,7 @@ struct LabParameter {
   bool resets_state = false;
   bool is_folded = false;  // its group is closed until it is asked for
 
-  std::string value() const;   // VALUE of PATH=VALUE; empty if it has none
-  std::string change() const;  // "PATH=VALUE"; empty likewise
+  std::string value() const;  // VALUE of PATH=VALUE; empty if it has none
 };
 
 // In the order of the page: time and world, couplings, masses, surfaces. Values not in the file are

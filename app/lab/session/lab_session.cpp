@@ -24,7 +24,7 @@ SuggestedFix values_of_file(const LabScene& scene, const std::vector<Change>& ch
   for (const LabParameter& parameter : parameters_of(scene.plan()->prepared))
     if (std::ranges::find(changes, parameter.path, &Change::path) != changes.end() &&
         !parameter.value().empty())
-      fix.changes.push_back(parameter.change());
+      fix.changes.push_back(parameter.path + "=" + parameter.value());
   return fix;
 }
 

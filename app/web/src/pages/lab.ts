@@ -9,8 +9,16 @@ import { Operator } from '../input/operator';
 import { Handles } from '../input/handles';
 import { KeyInput } from '../input/key_input';
 import { isKept, labKeys, MOUSE } from './lab_keys';
-import { panelsOf } from './lab_panels';
 import * as wire from '../source/link';
+import { EnergyPanel } from '../panels/balances';
+import { BuildMenu } from '../panels/build_menu';
+import { Diverged } from '../panels/diverged';
+import { Gallery } from '../panels/gallery';
+import { InputBar } from '../panels/input_bar';
+import { LabTimeBar } from '../panels/lab_time_bar';
+import { Notes } from '../panels/menus';
+import { Parameters } from '../panels/parameters';
+import { Plots } from '../plot/plots';
 import { LiveStage, Picture } from '../view/live_stage';
 import { remember, remembered, Theme } from '../ui/preferences';
 import { Overlays, Views } from '../view/view_options';
@@ -70,7 +78,7 @@ export class Page implements LabPage {
     () => this.touch(),
   );
   private readonly run = new LiveRun(this);
-  readonly set = panelsOf(this, this.run);
+  readonly set = this.panelsBut(this.run);
   private readonly inspector = new Inspector(this);
   private readonly panels: Panel[] = [...Object.values(this.set), this.inspector];
   private readonly listeners: Listener[] = [this.run, ...this.panels]; // the run first: panels read it
@@ -112,6 +120,18 @@ export class Page implements LabPage {
     this.fold(false);
     this.tabs.show(Math.max(0, TABS.indexOf(title)));
     for (const panel of this.panels) panel.onTheme?.();
+  }
+
+  // All but the inspector: `time` is the bar below the view, `input` in a corner of the view, `gallery` a dialog,
+  // `diverged` over the view while the run has diverged.
+  private panelsBut(run: LiveRun) {
+    const parameters = new Parameters(this);
+    const build = new BuildMenu(this);
+    const notes = new Notes();
+    const time = new LabTimeBar(this, () => parameters.changes, [build.root, notes.root]);
+    const [plots, energy, gallery] = [new Plots(run), new EnergyPanel(run), new Gallery(this)];
+    const [input, diverged] = [new InputBar(this), new Diverged(this, time.rewind)];
+    return { build, notes, parameters, plots, energy, time, input, gallery, diverged };
   }
 
   private build(): void {
