@@ -14,12 +14,15 @@ import { Segments } from '../ui/choices';
 const DRAW = 33; // [ms]
 const SHARE = 5; // drawing takes at most this fraction of the time, 1/5
 const REVIEW = 1000; // between updates of the list of curves [ms]
+const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
+const PAUSE = 'pause the plots while the run continues';
 
 export class Plots implements Panel {
   readonly root = element('div.plots');
   degrees = true; // else radians
   private record: RunRecord | null = null;
-  private readonly bar = new PlotBar(this.source.isLive, this);
+  private readonly pause = button(icon('pause'), PAUSE, () => this.togglePause());
+  private length: number; // of the time shown [s]
   private readonly list = element('div');
   private readonly pick = element('select', { 'aria-label': 'any other quantity' });
   private readonly picked = element('div');
@@ -41,12 +44,29 @@ export class Plots implements Panel {
 
   constructor(readonly source: RunSource) {
     this.pick.addEventListener('change', () => this.choose(this.pick.value));
-    this.root.append(this.bar.root, this.list, element('section.pick', this.pick, this.picked));
+    this.length = LENGTHS[source.isLive ? '10 s' : 'all'];
+    this.root.append(this.bar(), this.list, element('section.pick', this.pick, this.picked));
   }
 
-  setDegrees(on: boolean): void {
-    this.degrees = on;
-    this.refresh();
+  // Toolbar: time span and pause of a live run, unit of angles, export.
+  private bar(): HTMLElement {
+    const lengths = new Segments('time shown', Object.keys(LENGTHS), '10 s', (name) => {
+      this.length = LENGTHS[name];
+      this.zoom(null);
+    });
+    const angles = new Segments('angles in', ['°', 'rad'], '°', (name) => {
+      this.degrees = name === '°';
+      this.refresh();
+    });
+    const whole = button('whole run', 'show all of the run (double-click)', () => this.zoom(null));
+    return element(
+      'div.plot-bar',
+      { role: 'toolbar', 'aria-label': 'plots' },
+      ...(this.source.isLive ? [this.pause, lengths.root] : [whole]),
+      angles.root,
+      element('span.space'),
+      button('all CSV', 'save all quantities as CSV', () => this.saveAll()),
+    );
   }
 
   onTheme(): void {
@@ -84,7 +104,11 @@ export class Plots implements Panel {
 
   zoom(window: Window | null): void {
     this.window = window;
-    this.bar.showPaused(window !== null);
+    const isPaused = window !== null;
+    this.pause.setAttribute('aria-pressed', String(isPaused));
+    this.pause.replaceChildren(icon(isPaused ? 'play' : 'pause'));
+    this.pause.title = isPaused ? 'follow the run' : PAUSE;
+    this.pause.setAttribute('aria-label', this.pause.title);
     this.refresh();
   }
   saveCsv(what: string, columns: CsvColumn[]): void {
@@ -98,7 +122,7 @@ export class Plots implements Panel {
   }
 
   // All channels and all rows of the energy balance.
-  saveAll(): void {
+  private saveAll(): void {
     if (!this.record) return;
     const { scene, store, works } = this.record;
     const value = (column: number) => (row: number) => store.value(column, row);
@@ -129,7 +153,7 @@ export class Plots implements Panel {
     this.drawn = '';
   }
 
-  togglePause(): void {
+  private togglePause(): void {
     this.zoom(this.window || !this.record ? null : this.shownWindow(this.record));
   }
 
@@ -138,7 +162,7 @@ export class Plots implements Panel {
     const { store, before } = record;
     const [first, last] = store.length > 0 ? [store.first, store.last] : [0, 0];
     const newest = Math.max(last, before ? before.last : last);
-    const { length } = this.bar;
+    const { length } = this;
     if (length === Infinity) return { from: first, to: Math.max(newest, first + 1e-3) };
     const { at } = this.source;
     let to = Math.max(last, length);
@@ -189,39 +213,5 @@ export class Plots implements Panel {
     this.single = spec && this.record ? this.chart(spec, this.record) : null;
     this.picked.replaceChildren(...(this.single ? [this.single.root] : []));
     this.refresh();
-  }
-}
-
-const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
-const PAUSE = 'pause the plots while the run continues';
-
-// Toolbar: time span and pause of a live run, unit of angles, export.
-class PlotBar {
-  readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
-  length: number; // of the time shown [s]
-  private readonly pause: HTMLButtonElement;
-
-  constructor(isLive: boolean, plots: Plots) {
-    this.length = LENGTHS[isLive ? '10 s' : 'all'];
-    const lengths = new Segments('time shown', Object.keys(LENGTHS), '10 s', (name) => {
-      this.length = LENGTHS[name];
-      plots.zoom(null);
-    });
-    const angles = new Segments('angles in', ['°', 'rad'], '°', (name) => plots.setDegrees(name === '°'));
-    this.pause = button(icon('pause'), PAUSE, () => plots.togglePause());
-    const whole = button('whole run', 'show all of the run (double-click)', () => plots.zoom(null));
-    this.root.append(
-      ...(isLive ? [this.pause, lengths.root] : [whole]),
-      angles.root,
-      element('span.space'),
-      button('all CSV', 'save all quantities as CSV', () => plots.saveAll()),
-    );
-  }
-
-  showPaused(on: boolean): void {
-    this.pause.setAttribute('aria-pressed', String(on));
-    this.pause.replaceChildren(icon(on ? 'play' : 'pause'));
-    this.pause.title = on ? 'follow the run' : PAUSE;
-    this.pause.setAttribute('aria-label', this.pause.title);
   }
 }
