@@ -32,11 +32,6 @@ NamedWrench inertia_of(const Inspection& in, std::size_t i) {
   return {"inertia", -force, -torque};
 }
 
-NamedWrench gravity_on(const Inspection& in, std::size_t i) {
-  const Vector3 g = to_eigen(in.model.gravity), h = in_world(in, i, in.model.I[i].h);
-  return {"gravity", in.model.I[i].m * g, h.cross(g)};
-}
-
 // Weight of the subtree [N]: scale of the rounding error where a body falls freely.
 double subtree_weight(const Inspection& in, std::size_t i) {
   double mass = 0;
@@ -68,7 +63,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& 
   BodyBalance balance;
   balance.body = body;
   std::vector<NamedWrench>& all = balance.wrenches;
-  all.push_back(gravity_on(in, body));
+  const Vector3 g = to_eigen(in.model.gravity), h = in_world(in, body, in.model.I[body].h);
+  all.push_back({"gravity", in.model.I[body].m * g, h.cross(g)});
   all.push_back(named(in, "joint/" + joint_label(in, body), body, joint_force(in, body)));
   for (const std::size_t child : in.children(body)) {
     NamedWrench back =

@@ -20,22 +20,19 @@ std::string shell_word(const std::string& word) {
   return "'" + replace_all(word, "'", "'\\''") + "'";
 }
 
-std::string three_numbers(const Vector3& v) {
-  return number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z());
-}
-
 void write_pairs(JsonWriter& json, const RecordingHeader& header, const FilmedRun& run,
                  double rate) {
   const auto fact = [&](const char* name, const std::string& value) {
     if (!value.empty()) json.texts({name, value});
   };
   const SceneModel* scene = run.plan.input.scene.get();
+  const Vec3<double>& g = run.model().gravity;
   json.key("facts").begin_array();
   fact("model", std::filesystem::path(header.run.robot.model).filename().string());
   fact("integrator", header.integrator);
   fact("step", number_text(1e3 * header.step) + " ms");
   fact("duration", number_text(header.duration) + " s");
-  fact("gravity", three_numbers(to_eigen(run.model().gravity)) + " m/s²");
+  fact("gravity", number_text(g.x) + ", " + number_text(g.y) + ", " + number_text(g.z) + " m/s²");
   if (scene)
     fact("contact", header.run.contact.empty()
                         ? kContactModes[static_cast<std::size_t>(scene->description.contact)]

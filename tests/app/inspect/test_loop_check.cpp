@@ -141,8 +141,8 @@ TEST_CASE("loop check: a mimic joint with a wrong acceleration is named") {
   State<double> x = random_state(random, model);
   Inspection in(model, x, {});
   const auto error = [&] { return loop_errors(in).at(0); };
-  CHECK(error().name == "joint4");
-  CHECK(error().error > 1e-3);
+  CHECK(error().first == "joint4");
+  CHECK(error().second > 1e-3);
   in.w.qdd[model.iv[4]] = 2 * in.w.qdd[model.iv[1]];
-  CHECK(error().error < 1e-12);
+  CHECK(error().second < 1e-12);
 }

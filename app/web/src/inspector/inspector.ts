@@ -2,10 +2,11 @@
 // diagram, contacts, energy balance; while paused, a walk through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection, Vector } from '../protocol/messages';
-import { adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable, wrenchColor } from './tables';
+import { adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable } from './tables';
 import { button, element, icon, morph, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { key, listen } from '../ui/keys';
+import { token } from '../ui/preferences';
 import type { SceneMessage } from '../source/link';
 import { passCards } from './cards';
 import { closing, diagram, type Plane } from './diagram';
@@ -20,12 +21,6 @@ const PASSES: Record<number, [string, string]> = {
 
 type Step = { pass: number; body: string };
 
-// The steps of one call: outward, inward, outward.
-function stepsOf(bodies: string[]): Step[] {
-  const outward = (pass: number) => bodies.map((body) => ({ pass, body }));
-  return [...outward(1), ...outward(2).reverse(), ...outward(3)];
-}
-
 export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'select' | 'arrows'>;
 
 export class Inspector implements Panel {
@@ -37,7 +32,7 @@ export class Inspector implements Panel {
   private rows: HTMLElement[] = [];
   private readonly place = element('output.place');
   private readonly content = element('div.content', { click: (event: Event) => this.click(event) });
-  private steps: Step[] = [];
+  private steps: Step[] = []; // of one call
   private bodies: string[] = []; // from number 1 on
   private body = 1;
   private pass = 1;
@@ -69,7 +64,8 @@ export class Inspector implements Panel {
 
   onScene(scene: SceneMessage): void {
     this.bodies = scene.bodies.slice(1).map(({ name }) => name);
-    this.steps = stepsOf(this.bodies);
+    const outward = (pass: number) => this.bodies.map((body) => ({ pass, body }));
+    this.steps = [...outward(1), ...outward(2).reverse(), ...outward(3)];
     this.fillStepper();
     this.newest = null;
     this.content.replaceChildren();
@@ -220,7 +216,7 @@ export class Inspector implements Panel {
     const arrows = found.wrenches.map(({ force }, i) => ({
       from: found.about as Vector,
       along: force.map((part) => scale * part) as Vector,
-      color: wrenchColor(i),
+      color: token(`--c${i % 8}`),
     }));
     this.page.arrows(arrows);
   }

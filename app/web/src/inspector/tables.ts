@@ -5,7 +5,6 @@ import { EnergyTable, inOrder } from '../panels/balances';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
 import { quantityCard } from './quantity';
-import { token } from '../ui/preferences';
 
 const NOT_UNIQUE = 'Not unique: other contact forces give the same accelerations; only their sum is determined.';
 
@@ -106,17 +105,10 @@ export function adjacentCards(bodies: AdjacentBody[], pass: number): HTMLElement
   });
 }
 
-// Colours of wrenches, in the table and as arrows in the 3-D view.
-const COLORS = 8;
-
-export function wrenchColor(i: number): string {
-  return token(`--c${i % COLORS}`);
-}
-
-// Numbered, since colours alone may not be distinguishable.
+// Numbered, since colours alone may not be distinguishable; the arrows in the 3-D view have them too.
 function swatch(i: number): HTMLElement {
   const made = element('i.swatch', element('b', String(i + 1)));
-  made.style.color = `var(--c${i % COLORS})`;
+  made.style.color = `var(--c${i % 8})`;
   return made;
 }
 

@@ -231,7 +231,10 @@ export class Page implements LabPage {
       this.address.onState(this);
     }
     if (inspection) { for (const panel of this.panels) panel.onInspection?.(inspection); }
-    if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
+    if (!frame || frame.scene !== this.scene?.scene) return;
+    this.frame = frame;
+    this.stale = true;
+    for (const listener of this.listeners) listener.onFrame?.(frame);
   }
 
   private takeScene(scene: wire.SceneMessage): void {
@@ -250,12 +253,6 @@ export class Page implements LabPage {
     this.hints.show(scene);
     void this.live.show(scene);
     for (const listener of this.listeners) listener.onScene?.(scene);
-  }
-
-  private takeFrame(frame: wire.Frame): void {
-    this.frame = frame;
-    this.stale = true;
-    for (const listener of this.listeners) listener.onFrame?.(frame);
   }
 
   private paint(frame: wire.Frame, now: number): void {

@@ -6,7 +6,7 @@ import { button, element, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
 import { branchCurves, type ChartExtras, colorOf, DASH, gapsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
-import { savePicture } from './export';
+import { fileName, savePicture } from './export';
 import type { Plots } from './plots';
 import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
@@ -220,7 +220,7 @@ export class Chart {
       return { name: curve.name, color: colorOf(curve), dash: DASH[curve.style] ?? [] };
     });
     const title = `${this.spec.title} [${this.unit}]`;
-    const name = this.plots.pictureName(this.spec.id);
+    const name = fileName(this.record.scene.title, this.spec.id, 'png');
     // uPlot draws when this is done.
     setTimeout(() => {
       savePicture(name, title, chart.ctx.canvas, lines);

@@ -13,7 +13,7 @@ export function axesOfTime(unit: string): uPlot.Axis[] {
   const font = '11px system-ui, sans-serif';
   const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
   return [
-    { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map(timeText) },
+    { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map((time) => `${+time.toPrecision(6)} s`) },
     {
       ...axis,
       size: 52,
@@ -23,10 +23,6 @@ export function axesOfTime(unit: string): uPlot.Axis[] {
       values: (_, ticks, __, ___, interval) => ticks.map((tick) => tickText(tick, interval)),
     },
   ];
-}
-
-function timeText(time: number): string {
-  return `${+time.toPrecision(6)} s`;
 }
 
 // With as many digits as tell the value from its neighbours, one `interval` away.

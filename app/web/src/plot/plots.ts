@@ -21,7 +21,9 @@ export class Plots implements Panel {
   readonly root = element('div.plots');
   degrees = true; // else radians
   private record: RunRecord | null = null;
-  private readonly pause = button(icon('pause'), PAUSE, () => this.togglePause());
+  private readonly pause = button(icon('pause'), PAUSE, () => {
+    this.zoom(this.window || !this.record ? null : this.shownWindow(this.record));
+  });
   private length: number; // of the time shown [s]
   private readonly list = element('div');
   private readonly pick = element('select', { 'aria-label': 'any other quantity' });
@@ -117,9 +119,6 @@ export class Plots implements Panel {
     const text = csvText([time, ...columns], store.length);
     download(fileName(scene.title, what, 'csv'), new Blob([text], { type: 'text/csv' }));
   }
-  pictureName(what: string): string {
-    return fileName(this.record!.scene.title, what, 'png');
-  }
 
   // All channels and all rows of the energy balance.
   private saveAll(): void {
@@ -151,10 +150,6 @@ export class Plots implements Panel {
 
   private refresh(): void {
     this.drawn = '';
-  }
-
-  private togglePause(): void {
-    this.zoom(this.window || !this.record ? null : this.shownWindow(this.record));
   }
 
   private shownWindow(record: RunRecord): Window {

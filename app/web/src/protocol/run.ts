@@ -84,11 +84,6 @@ export interface Run extends PageData {
   bodies: string[]; // that have position channels
 }
 
-// The last frame at or before t.
-export function frameAt(times: Float64Array, t: number): number {
-  return Math.max(0, firstAfter(times, t + 1e-9) - 1);
-}
-
 // Index of the first time later than t, in ascending times; their number: none.
 export function firstAfter(times: Float64Array, t: number): number {
   let low = 0;

@@ -1,6 +1,6 @@
 // Instant shown, and its playback: of a recorded run (Player), and of the lab's buffered run (Rewind).
 import type { Clock } from '../panels/time_bar';
-import { frameAt, type Run } from '../protocol/run';
+import { firstAfter, type Run } from '../protocol/run';
 import { recordOf } from './run_record';
 import type { RunSource } from './run_source';
 import type { LabPage } from '../panels/panel';
@@ -66,7 +66,7 @@ export class Player extends Playhead implements RunSource, Clock {
     return this.times[this.times.length - 1];
   }
   get frame(): number {
-    return frameAt(this.times, this.at);
+    return Math.max(0, firstAfter(this.times, this.at + 1e-9) - 1);
   }
   // Interpolation factor between this frame and the next.
   get share(): number {

@@ -3,7 +3,7 @@
 // Columns: the scene's channels, the works of its energy balance, their sum; and for each unit of tracking
 // errors the maximum over joints and time so far, and the time average of the maximum over joints.
 import type { Run } from '../protocol/run';
-import type { Frame, SceneChannel, SceneMessage, StateMessage } from './link';
+import type { Frame, SceneMessage, StateMessage } from './link';
 import { Store } from './store';
 
 const CAPACITY = 36_000; // frames: ten minutes at 60 Hz
@@ -118,7 +118,8 @@ export class RunRecord {
 
   // Copies rows after a time from a store that has the columns of another record.
   private replay(store: Store, of: RunRecord, after = -Infinity): void {
-    const channels = columnsOf(this.scene.channels, of.scene.channels);
+    const places = new Map(of.scene.channels.map(({ name }, i) => [name, i]));
+    const channels = this.scene.channels.map(({ name }) => places.get(name) ?? -1); // -1: missing
     const energy_balance = this.scene.energy_balance.map((name) => of.scene.energy_balance.indexOf(name));
     const values = new Float64Array(channels.length);
     const works = new Float64Array(energy_balance.length);
@@ -194,12 +195,6 @@ export class RunRecord {
     const sum = store.value(mean, row) * (then - began) + now * (time - then);
     return [Math.max(store.value(max, row), now), sum / (time - began)];
   }
-}
-
-// Index of each wanted channel; -1: missing.
-function columnsOf(wanted: SceneChannel[], there: SceneChannel[]): number[] {
-  const places = new Map(there.map(({ name }, i) => [name, i]));
-  return wanted.map(({ name }) => places.get(name) ?? -1);
 }
 
 export function recordOf({ title, channels, energy_balance, times }: Run): RunRecord {

@@ -1,7 +1,7 @@
 // Draws a draw list with three.js: entries with the same mesh and surface form one instanced mesh.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../protocol/run';
-import { Batch, translucentMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf } from './surfaces';
+import { Batch, translucentMaterials, hiddenMaterials, ORDER, outlineMaterials, type SurfaceOf } from './surfaces';
 
 // Frames a and b of one layer, interpolated by `share`. A live frame has layers in the place of frames.
 export interface Part {
@@ -185,8 +185,8 @@ export class Painter {
     if (kind === HIDDEN) return hiddenMaterials(surface, alpha / 255);
     if (kind === TRANSLUCENT) return translucentMaterials(surface, alpha / 255);
     const { uv, twoSided } = this.meshes[mesh];
-    const map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
-    const material = solidMaterial(surface, map, twoSided);
-    return [{ material, order: ORDER.solid, shadow: kind === BODY }];
+    surface.map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
+    if (twoSided) surface.side = THREE.DoubleSide;
+    return [{ material: surface, order: ORDER.solid, shadow: kind === BODY }];
   }
 }

@@ -10,12 +10,6 @@ export const glossy: SurfaceOf = (shininess) =>
   new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
 export const plainly: SurfaceOf = () => new THREE.MeshLambertMaterial();
 
-export function solidMaterial(material: Surface, map: THREE.Texture | null, twoSided: boolean) {
-  material.map = map;
-  if (twoSided) material.side = THREE.DoubleSide;
-  return material;
-}
-
 // Depth first, then colour at the nearest surface: the inside of a shell is not visible. Both have a depth
 // offset, so that a translucent body at the place of a solid one does not flicker.
 export function translucentMaterials(color: Surface, alpha: number) {
