@@ -92,8 +92,8 @@ std::optional<Connection::Refusal> Connection::refusal() {
   if (is_post && core_.handlers.may_post &&
       !core_.handlers.may_post(std::string(query_of(view(request.target())))))
     return Refusal{403, "another client has control; request it"};
-  if (is_post && std::ranges::count_if(core_.connections, &Connection::is_posting) >=
-                     core_.options.max_posts)
+  if (is_post &&
+      std::ranges::count_if(core_.connections, &Connection::is_posting) >= core_.options.max_posts)
     return Refusal{503, "too many uploads at once; try again"};
   return {};
 }
