@@ -95,7 +95,7 @@ def hostile():
 def good(folder):
     """A valid value of each parameter, by its name."""
     body = {"model": MODEL, "robot": MODEL, "q": ZERO, "qd": ZERO, "tau": ZERO, "qdd": ZERO, "body": "link3",
-            "file": ARM_SCENE, "scene": str(DATA / "hinge.toml"), "recording": str(folder / "run.twinrec"),
+            "file": str(DATA / "hinge.toml"), "scene": str(DATA / "hinge.toml"), "recording": str(folder / "run.twinrec"),
             "M": [[1.0]], "K": [[1.0]], "B": [[0.1]], "scheme": "explicit Euler", "zeta": 0.1, "duration": 0.002,
             "count": 1, "name": "IA", "source": "coupling/x", "key": 0, "kind": None, "value": None, "trace": None,
             "data": {}}
