@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <regex>
 
+#include "solver/support/text.h"
+
 namespace twinarm {
 namespace {
 
@@ -120,17 +122,6 @@ footer { max-width: 960px; margin: 3rem auto 2rem; padding: 1rem 20px 0; color: 
 )css";
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text)
-    html += c == '&'   ? "&amp;"
-            : c == '<' ? "&lt;"
-            : c == '>' ? "&gt;"
-            : c == '"' ? "&quot;"
-                       : std::string(1, c);
-  return html;
-}
 
 std::string with_powers(const std::string& text) {
   static const std::regex minus("\\b([0-9.]+)e-0*([0-9]+)\\b"),

@@ -7,7 +7,6 @@
 
 namespace twinarm {
 
-std::string escaped(const std::string& text);
 std::string with_powers(const std::string& text);  // 1.2e-05 as 1.2 × 10 with exponent −5
 std::string yes_no(bool yes, const char* yes_word, const char* no_word);  // green or red
 

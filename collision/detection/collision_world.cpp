@@ -64,7 +64,7 @@ int CollisionWorld::add(Geometry geometry) {
     half_spaces_.push_back(id);
   } else {
     bounded_.push_back(id);
-    broad_phase_.add();
+    tree_.reset();
   }
   return id;
 }
@@ -103,6 +103,21 @@ bool CollisionWorld::may_collide(int a, int b) const {
          !(is_excluded_ && is_excluded_(std::min(a, b), std::max(a, b)));
 }
 
+// Broad phase: fills pairs_ with all overlapping pairs of boxes_ (i < j), unsorted. Up to 64 boxes in
+// O(n^2); more by FCL's dynamic AABB tree, O(n log n + pairs). Both find the same pairs.
+void CollisionWorld::find_overlaps() {
+  constexpr std::size_t kMaxAllPairs = 64;  // boxes
+  pairs_.clear();
+  if (boxes_.size() > kMaxAllPairs) {
+    if (!tree_) tree_.reset(twinarm_fcl_box_tree());
+    return tree_->overlaps(boxes_, pairs_);
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes_.size(); ++j)
+      if (boxes_[i].intersects(boxes_[j]))
+        pairs_.emplace_back(static_cast<int>(i), static_cast<int>(j));
+}
+
 // Fills pairs_ with the collision pairs, ascending.
 void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const double> margins) {
   boxes_.clear();
@@ -111,7 +126,7 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
   for (int id : bounded_)
     boxes_.push_back(is_finite(X_WG[id]) ? broad_phase_box({solids_[id], X_WG[id]}, margins[id])
                                          : nowhere);
-  broad_phase_.overlaps(boxes_, pairs_);
+  find_overlaps();
   for (auto& [a, b] : pairs_) {
     a = bounded_[a];
     b = bounded_[b];

@@ -4,12 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "collision/detection/broad_phase.h"
+#include "collision/detection/fcl_box_tree.h"
 #include "collision/detection/mesh_contact.h"
 #include "collision/narrow_phase/gjk.h"
 #include "collision/narrow_phase/narrow_phase.h"
@@ -73,6 +74,7 @@ class CollisionWorld {
 
  private:
   void check_pair(int a, int b) const;
+  void find_overlaps();
   void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
   NarrowPhase::Result narrow(const PosedShape& a, const PosedShape& b, double margin);
   void collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
@@ -83,7 +85,7 @@ class CollisionWorld {
   std::array<std::uint32_t, kGroupCount> mask_;  // bit j of mask i: groups i and j collide
   std::function<bool(int, int)> is_excluded_;
   std::vector<double> margins_;  // of detect() with one margin
-  BroadPhase broad_phase_;
+  std::unique_ptr<BoxTree> tree_;  // of many boxes; null until it is needed
   NarrowPhase narrow_phase_;
   MeshContact mesh_contact_;
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box

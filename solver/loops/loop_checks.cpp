@@ -1,19 +1,9 @@
 // Checks of loop closures.
-#include <sstream>
-
 #include "solver/loops/loop_types.h"
 
 namespace twinarm {
 namespace {
 
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(6);
-  (out << ... << parts);
-  return out.str();
-}
 std::string called(const LoopClosure& loop) {
   return "loop '" + loop.name + "'";
 }
@@ -69,15 +59,16 @@ class OneLoop {
   }
   bool is_body(int body, const char* end) {
     if (body >= 0 && body < model_.body_count()) return true;
-    add(text("body ", end, " is ", body, ", of 0 .. ", model_.body_count() - 1),
+    add(std::string("body ") + end + " is " + std::to_string(body) + ", of 0 .. " +
+            std::to_string(model_.body_count() - 1),
         "use an index of Model::find_body");
     return false;
   }
   bool has_one_dof(int body) {
     const auto i = static_cast<std::size_t>(body);
     if (body > 0 && model_.dofs(i) == 1) return true;
-    add(text("the joint of body ", body, " (", name_of(model_.joint[i]), ") has ", model_.dofs(i),
-             " degrees of freedom, must have one"),
+    add("the joint of body " + std::to_string(body) + " (" + name_of(model_.joint[i]) + ") has " +
+            std::to_string(model_.dofs(i)) + " degrees of freedom, must have one",
         "use a weld, or another joint");
     return false;
   }
@@ -102,8 +93,9 @@ std::vector<DiagnosticList> faults_by_loop(const Model<double>& model,
     visit_loop(loop.type, [&](auto type) { rows += decltype(type)::rows; });
   if (rows * model.nv > kMaxLoopEntries)
     throw InputError({{"", 0, "loops",
-                       text(rows, " constraint rows on ", model.nv, " velocities: more than ",
-                            kMaxLoopEntries, " matrix entries"),
+                       std::to_string(rows) + " constraint rows on " + std::to_string(model.nv) +
+                           " velocities: more than " + std::to_string(kMaxLoopEntries) +
+                           " matrix entries",
                        "give fewer loops or bodies", "loop.too-many"}});
   std::vector<DiagnosticList> faults(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -136,8 +128,9 @@ void add_open(const Model<double>& model, const LoopClosure& loop, const State<d
                "loop.turned-over");
   else if (!(error <= kMaxInitialError))
     faults.add(called(loop),
-               text("position error is ", error, " (m or rad) in the initial state, allowed ",
-                    kMaxInitialError),
+               "position error is " + short_number_text(error) +
+                   " (m or rad) in the initial state, allowed " +
+                   short_number_text(kMaxInitialError),
                fix, "loop.open");
 }
 

@@ -33,4 +33,16 @@ inline std::string replace_all(std::string text, std::string_view from, std::str
   return text;
 }
 
+// For XML and HTML.
+inline std::string escaped(std::string_view text) {
+  std::string all;
+  for (const char c : text)
+    all += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
+  return all;
+}
+
 }  // namespace twinarm

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "solver/support/text.h"
+
 namespace twinarm {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "app/plot/gnuplot.h"
 #include "app/study/findings/results.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 

@@ -6,21 +6,10 @@
 #include "collision/import/robot/robot_check.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/number_text.h"
+#include "solver/support/text.h"
 
 namespace twinarm {
 namespace {
-
-std::string escaped(const std::string& text) {
-  static const std::map<char, const char*> entities{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-  std::string result;
-  for (const char c : text)
-    if (const auto entity = entities.find(c); entity != entities.end())
-      result += entity->second;
-    else
-      result += c;
-  return result;
-}
 
 std::string attribute(const std::string& name, const std::string& text) {
   return " " + name + "=\"" + escaped(text) + "\"";

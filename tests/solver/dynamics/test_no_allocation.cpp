@@ -1,7 +1,6 @@
 // The algorithms and the functions of their results allocate nothing, for all scalars and levels.
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/operational_space.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "tests/solver/dynamics/every_scalar.h"
 #include "tests/support/count_allocations.h"
@@ -40,7 +39,6 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
             momentum(p.model_S, w);
             kinetic_energy(p.model_S, p.x_S, w);
             potential_energy(p.model_S, w);
-            inverse_operational_inertia(p.model_S, tip, r, zero, wrench, w);
             p.forces_S.clear();
           }) == 0);
   }

@@ -5,7 +5,6 @@
 #include "solver/linear_algebra/dense_algebra.h"
 
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/operational_space.h"
 #include "tests/solver/dynamics/every_scalar.h"
 #include "tests/solver/dynamics/world_oracle.h"
 
@@ -243,34 +242,4 @@ TEST_CASE("the rate of momentum is the sum of the external forces") {
   }
   MESSAGE("largest relative difference = " << worst);
   CHECK(worst < 1e-8);
-}
-
-TEST_CASE("inverse operational-space inertia = J M^-1 J^T, and the scratch is zero again") {
-  Random random(7);
-  double worst = 0;
-  for (const auto& types : lists_of_types())
-    for (int n = 0; n < 15; ++n) {
-      MovingTree t(random, random.integer(1, 8), types);
-      if (t.model.nv == 0) continue;
-      const Point p(random, t);
-      const Forces<double> none(t.model);
-      const MatrixXd M = mass_matrix(t.model, t.x);
-      kinematics(t.model, t.x, t.w);
-      aba(t.model, t.x, none, t.w);
-      const std::vector<double> at_rest(t.model.nv);
-      std::vector<Force<double>> wrench(t.model.parent.size());
-      const auto got = inverse_operational_inertia(t.model, p.body, p.r_B, at_rest, wrench, t.w);
-      std::vector<Motion<double>> J(t.model.nv);
-      jacobian(t.model, t.w, p.body, p.r_B, J);
-      const MatrixXd expected = dense(J) * solve_symmetric(M, dense(J).transpose());
-      MatrixXd difference = expected;
-      for (std::size_t row = 0; row < 6; ++row)
-        for (std::size_t col = 0; col < 6; ++col)
-          difference(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col)) -=
-              got[row][col];
-      worst = std::max(worst, difference.norm() / (1e-300 + expected.norm()));
-      for (const Force<double>& f : wrench) CHECK(dot(f.n, f.n) + dot(f.f, f.f) == 0);
-    }
-  MESSAGE("largest relative difference = " << worst);
-  CHECK(worst < 1e-11);
 }
