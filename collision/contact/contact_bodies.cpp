@@ -40,8 +40,8 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   check(s.restitution >= 0 && s.restitution <= 1,
         "restitution is " + short_number_text(s.restitution) + ", must be from 0 to 1",
         "give 0 (inelastic) to 1 (elastic)");
-  check(s.torsional >= 0 && s.rolling >= 0, "torsional or rolling friction is negative",
-        "give a length of 0 m or more");
+  check(s.torsional_friction >= 0 && s.rolling_friction >= 0,
+        "torsional or rolling friction is negative", "give a length of 0 m or more");
   check(s.stiffness > 0 && std::isfinite(s.stiffness),
         "stiffness is " + short_number_text(s.stiffness) + " N/m, must be positive and finite",
         "give a stiffness above 0 N/m");
@@ -54,15 +54,6 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   const bool bounded = !std::holds_alternative<HalfSpace>(geometry.shape);
   radius_.push_back(bounded ? geometry.X_LG.p.norm() + half_diagonal(geometry.shape) : 0);
   return id;
-}
-
-ContactMaterialPair ContactBodies::material_of(int id_a, int id_b) const {
-  const ContactSurface &a = geometry(id_a).surface, &b = geometry(id_b).surface;
-  const ContactMaterialPair material{
-      std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
-      in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
-  const auto given = overrides_.find({id_a, id_b});
-  return given == overrides_.end() ? material : given->second;
 }
 
 Vector3 ContactBodies::application_point(const Contact& c, int body) const {

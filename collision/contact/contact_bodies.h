@@ -20,10 +20,14 @@ class ContactBodies {
   // Returns its id. Throws InputError for invalid parameters.
   int add(const ContactGeometry& geometry);
   // Replaces the parameters combined from the two surfaces; the last call for a pair counts.
-  void set_pair(int a, int b, const ContactMaterialPair& material) {
-    overrides_.insert_or_assign(std::minmax(a, b), material);
+  void set_pair(int a, int b, const ContactSurface& pair) {
+    overrides_.insert_or_assign(std::minmax(a, b), pair);
   }
-  ContactMaterialPair material_of(int a, int b) const;
+  ContactSurface surface_of_pair(int a, int b) const {
+    const auto given = overrides_.find({a, b});
+    return given == overrides_.end() ? combined(geometry(a).surface, geometry(b).surface)
+                                     : given->second;
+  }
 
   CollisionWorld& world() { return world_; }
   const ContactGeometry& geometry(int id) const {
@@ -67,7 +71,7 @@ class ContactBodies {
   CollisionWorld world_;
   std::vector<ContactGeometry> geometries_;
   std::vector<double> radius_;  // by geometry: bounding sphere about its link's origin [m]
-  std::map<std::pair<int, int>, ContactMaterialPair> overrides_;
+  std::map<std::pair<int, int>, ContactSurface> overrides_;
 };
 
 }  // namespace twinarm

@@ -29,10 +29,10 @@ double ContactManifolds::speculative_margin(std::size_t geometry, const Kinemati
 ContactPoint ContactManifolds::start(const Contact& contact) const {
   ContactPoint point;
   point.contact = contact;
-  const ContactMaterialPair material = bodies_.material_of(contact.a, contact.b);
-  point.friction = material.friction;
-  point.restitution = material.restitution;
-  point.compliance = material.compliance;
+  const ContactSurface pair = bodies_.surface_of_pair(contact.a, contact.b);
+  point.friction = pair.friction;
+  point.restitution = pair.restitution;
+  point.compliance = {pair.stiffness, pair.dissipation};
   if (const ContactPoint* before = last_of(contact)) {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;

@@ -2,6 +2,8 @@
 // contacts.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "collision/detection/collision_world.h"
@@ -12,12 +14,12 @@ namespace twinarm {
 enum class ContactResponse { rigid, compliant };
 
 struct ContactSurface {
-  double friction = 0.5;   // mu; of a pair: geometric mean
-  double restitution = 0;  // e; of a pair: product
-  double torsional = 0;    // coefficient of torsional friction [m]
-  double rolling = 0;      // coefficient of rolling friction [m]
-  double stiffness = 1e6;  // compliant: of one contact point; of a pair: in_series [N/m]
-  double dissipation = 1;  // compliant: c [s/m]
+  double friction = 0.5;          // mu; of a pair: geometric mean
+  double restitution = 0;         // e; of a pair: product
+  double torsional_friction = 0;  // moment about the normal / normal force; of a pair: maximum [m]
+  double rolling_friction = 0;    // likewise [m]
+  double stiffness = 1e6;         // compliant: of one contact point; of a pair: in_series [N/m]
+  double dissipation = 1;         // compliant: c [s/m]
 };
 
 struct Compliance {
@@ -31,11 +33,16 @@ inline Compliance in_series(const Compliance& a, const Compliance& b) {
   return {k, a.dissipation * (k / a.stiffness) + b.dissipation * (k / b.stiffness)};
 }
 
-// Contact parameters of a pair of geometries.
-struct ContactMaterialPair {
-  double friction, restitution;
-  Compliance compliance;
-};
+// Of a pair.
+inline ContactSurface combined(const ContactSurface& a, const ContactSurface& b) {
+  const Compliance soft = in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation});
+  return {std::sqrt(a.friction * b.friction),
+          a.restitution * b.restitution,
+          std::max(a.torsional_friction, b.torsional_friction),
+          std::max(a.rolling_friction, b.rolling_friction),
+          soft.stiffness,
+          soft.dissipation};
+}
 
 struct ContactGeometry {
   std::string name;

@@ -150,8 +150,8 @@ void ContactRows::add_friction_couples(const ConstraintFrame& frame, const Conta
   };
   Matrix3 across;
   across << axes.col(1), axes.col(2), axes.col(0);
-  add_couple(std::max(a.torsional, b.torsional), axes, 1);
-  add_couple(std::max(a.rolling, b.rolling), across, 2);
+  add_couple(std::max(a.torsional_friction, b.torsional_friction), axes, 1);
+  add_couple(std::max(a.rolling_friction, b.rolling_friction), across, 2);
 }
 
 }  // namespace twinarm

@@ -76,11 +76,8 @@ class Episode {
 
  private:
   void add_contacts() {
-    for (const SceneGeometry& g : scene_.geometries) {
-      const ContactSurface surface{g.friction,         g.restitution, g.torsional_friction,
-                                   g.rolling_friction, g.stiffness,   g.dissipation};
-      contacts_.bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
-    }
+    for (const SceneGeometry& g : scene_.geometries)
+      contacts_.bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), g, 0});
     contacts_.bodies().world().set_pair_filter(
         [this](int a, int b) { return scene_.is_apart(a, b); });
     sim_.add(contacts_);

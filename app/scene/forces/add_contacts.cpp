@@ -128,22 +128,13 @@ void SceneContacts::add_geometries() {
   std::vector<Shape> shapes = collision_shapes(scene_);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const SceneGeometry& g = scene_.geometries[k];
-    const ContactSurface surface{.friction = g.friction,
-                                 .restitution = g.restitution,
-                                 .torsional = g.torsional_friction,
-                                 .rolling = g.rolling_friction,
-                                 .stiffness = g.stiffness,
-                                 .dissipation = g.dissipation};
-    contacts_->bodies().add({g.name, g.body, g.X_LG, std::move(shapes[k]), surface, 0});
+    contacts_->bodies().add({g.name, g.body, g.X_LG, std::move(shapes[k]), g, 0});
   }
   contacts_->bodies().world().set_pair_filter(
       [&scene = scene_](int a, int b) { return scene.is_apart(a, b); });
-  for (const auto& [ids, unused] : scene_.pairs) {
-    const Surface pair = scene_.surface_of_pair(ids.first, ids.second);
-    contacts_->bodies().set_pair(
-        ids.first, ids.second,
-        {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
-  }
+  for (const auto& [ids, unused] : scene_.pairs)
+    contacts_->bodies().set_pair(ids.first, ids.second,
+                                 scene_.surface_of_pair(ids.first, ids.second));
 }
 
 void SceneContacts::add_limits() {

@@ -145,16 +145,9 @@ bool SceneModel::may_touch() const {
   return false;
 }
 
-Surface SceneModel::surface_of_pair(int a, int b) const {
-  const Surface &s = geometries[static_cast<std::size_t>(a)],
-                &t = geometries[static_cast<std::size_t>(b)];
-  const Compliance soft = in_series({s.stiffness, s.dissipation}, {t.stiffness, t.dissipation});
-  Surface pair{std::sqrt(s.friction * t.friction),
-               s.restitution * t.restitution,
-               std::max(s.torsional_friction, t.torsional_friction),
-               std::max(s.rolling_friction, t.rolling_friction),
-               soft.stiffness,
-               soft.dissipation};
+ContactSurface SceneModel::surface_of_pair(int a, int b) const {
+  ContactSurface pair =
+      combined(geometries[static_cast<std::size_t>(a)], geometries[static_cast<std::size_t>(b)]);
   const auto rule = pairs.find(std::minmax(a, b));
   if (rule == pairs.end()) return pair;
   pair.friction = rule->second.friction.value_or(pair.friction);

@@ -20,7 +20,7 @@
 
 namespace twinarm {
 
-struct SceneGeometry : Surface {
+struct SceneGeometry : ContactSurface {
   std::string name;  // of its link or body, as in the output
   int body = 0;      // of the model
   Pose X_LG;         // in the link frame; of a fixed body in the world
@@ -103,7 +103,7 @@ struct SceneModel {
   bool may_touch() const;  // whether any pair of geometries can have contacts
   // Geometric mean of frictions, product of restitutions, maximum of torsional and rolling
   // friction, springs in series; then overrides.
-  Surface surface_of_pair(int a, int b) const;
+  ContactSurface surface_of_pair(int a, int b) const;
 };
 
 // Joints that an operator motion moves: the robot's first three with one degree of freedom.

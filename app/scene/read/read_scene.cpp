@@ -98,8 +98,8 @@ std::string SceneReader::read_name(TableReader& table, const char* kind) {
   return name;
 }
 
-Surface SceneReader::read_surface(TableReader& table) {
-  Surface surface;
+ContactSurface SceneReader::read_surface(TableReader& table) {
+  ContactSurface surface;
   for (const SurfaceKey& row : surface_keys())
     surface.*row.member = read_number(table, row.key, row.range).value_or(surface.*row.member);
   return surface;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/robot/coordinates.h"
+#include "collision/contact/contact_point.h"
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/laws/coupling_spec.h"
@@ -23,16 +24,6 @@
 #include "solver/spatial/pose.h"
 
 namespace twinarm {
-
-struct Surface {
-  double friction = 0.5;          // Coulomb coefficient; a pair has the geometric mean
-  double restitution = 0;         // 0 to 1; a pair has the product
-  double torsional_friction = 0;  // moment about the normal / normal force [m]
-  double rolling_friction = 0;    // [m]
-  // Compliant contact, per contact point; a pair is two springs in series.
-  double stiffness = 1e6;  // [N/m]
-  double dissipation = 1;  // Hunt-Crossley c [s/m]
-};
 
 // Prescribed motion, world axes, from the pose X at the start; w = 2 pi frequency:
 //   origin       X.p + linear t + amplitude sin(w t)
@@ -55,7 +46,7 @@ struct BodyDescription {
   Pose X_WB;                            // at the start
   Vector3 linear_velocity = Vector3::Zero();  // of the body's origin
   Vector3 angular_velocity = Vector3::Zero();
-  Surface surface;
+  ContactSurface surface;
   std::optional<Vector3> color;   // red, green, blue in [0, 1]; multiplies the texture
   std::filesystem::path texture;  // PNG or JPEG, absolute; may be empty
   int group = 0;                  // bodies of one group other than 0 do not collide
@@ -73,7 +64,7 @@ struct RobotInScene {
   Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
   JointValueMap q, qd;
   JointValueMap torque;  // constant joint forces [N m, N]
-  Surface surface;
+  ContactSurface surface;
   bool collide = true;                       // false: no contacts
   std::map<std::string, double> mass_scale;  // by link; factor on mass and inertia
   std::vector<PointMass> payloads;

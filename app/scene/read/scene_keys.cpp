@@ -19,26 +19,26 @@ const std::vector<SurfaceKey>& surface_keys() {
   using P = PairDescription;
   // clang-format off
   static const std::vector<SurfaceKey> rows{
-      {.key = "friction", .member = &Surface::friction, .of_pair = &P::friction,
+      {.key = "friction", .member = &ContactSurface::friction, .of_pair = &P::friction,
        .slider = {"friction", 0, 2, "Coulomb coefficient; a pair has the geometric mean.",
                   SliderRow::linear}},
       {.key = "restitution",
        .range = {Sign::not_negative, [](double e) { return e <= 1; },
                  "must be at most 1: an impact creates no energy", "give a number from 0 to 1"},
-       .member = &Surface::restitution, .of_pair = &P::restitution,
+       .member = &ContactSurface::restitution, .of_pair = &P::restitution,
        .slider = {"restitution", 0, 1, "Speed after an impact over speed before; a pair has the "
                   "product.", SliderRow::linear}},
-      {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction,
+      {.key = "torsional_friction", .unit = "m", .member = &ContactSurface::torsional_friction,
        .slider = {.meaning = "Moment about the normal per normal force; a pair has the larger one."}},
-      {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction,
+      {.key = "rolling_friction", .unit = "m", .member = &ContactSurface::rolling_friction,
        .slider = {.meaning = "Rolling moment per normal force; a pair has the larger one."}},
       {.key = "stiffness", .unit = "N/m", .range = {Sign::positive},
-       .member = &Surface::stiffness, .of_pair = &P::stiffness,
+       .member = &ContactSurface::stiffness, .of_pair = &P::stiffness,
        .slider = {"contact stiffness", 1e3, 1e9, "Stiffness per contact point; two surfaces are springs "
                   "in series."},
        .is_of_compliant = true},
       {.key = "dissipation", .unit = "s/m",
-       .member = &Surface::dissipation, .of_pair = &P::dissipation,
+       .member = &ContactSurface::dissipation, .of_pair = &P::dissipation,
        .slider = {.meaning = "c of N = k d (1 + c d') per contact point; of two springs in series "
                   "the softer one has more weight."}}};
   // clang-format on
@@ -258,7 +258,7 @@ std::string scene_numbers() {
   std::string page = kHead;
   for (const SurfaceKey& row : surface_keys())
     page += to_markdown({row.key, row.of_pair ? "robot, body, pair" : "robot, body", row.unit,
-                         Surface().*row.member, row.range, row.slider.meaning});
+                         ContactSurface().*row.member, row.range, row.slider.meaning});
   page += std::string("\n") + kHead;
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.number) continue;

@@ -33,7 +33,7 @@ struct SliderRow {
 struct SurfaceKey {
   const char *key, *unit = "";
   NumberRange range = {};
-  double Surface::*member;
+  double ContactSurface::*member;
   std::optional<double> PairDescription::*of_pair = nullptr;  // nullptr: not a key of pairs
   SliderRow slider = {};
   bool is_of_compliant = false;  // slider only for compliant contacts

@@ -55,7 +55,7 @@ struct SceneReader {
         table.fault(key, fault.first, fault.second, "scene.key-useless");
     }
   }
-  Surface read_surface(TableReader& table);
+  ContactSurface read_surface(TableReader& table);
   Pose read_pose(TableReader& table);
   JointValueMap read_joints(TableReader& table, const char* key, const RobotDescription& robot,
                             JointRows rows);

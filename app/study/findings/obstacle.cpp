@@ -32,7 +32,7 @@ class BoxContacts {
     box_ = bodies.add({"box", 0, {Matrix3::Identity(), box.position}, Box{box.size}, {}, 0});
     for (int link = 0; link < box_; ++link)
       bodies.set_pair(link, box_,
-                      {s.contact_friction, 0, {s.contact_stiffness, s.contact_dissipation}});
+                      {s.contact_friction, 0, 0, 0, s.contact_stiffness, s.contact_dissipation});
   }
   ContactConstraints& source() { return contacts_; }
 

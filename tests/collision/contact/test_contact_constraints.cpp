@@ -154,7 +154,7 @@ TEST_CASE("a box on a belt is accelerated by friction up to mu m g") {
 TEST_CASE(
     "torsional friction stops a spinning box after w I / (mu_t m g), rolling friction a sphere") {
   ContactSurface rough = rough_surface(0.5, 0);
-  rough.torsional = 0.02;
+  rough.torsional_friction = 0.02;
   ContactScene top;
   top.floor(rough_surface(0, 0));
   top.body(Sphere{0.1}, 1, rough, {{0, 0, 0.1}, {0, 0, 0}, {0, 0, 10}});
@@ -165,7 +165,7 @@ TEST_CASE(
         doctest::Approx(10 - 0.1 * alpha).epsilon(1e-6));
 
   ContactSurface soft = rough_surface(0.5, 0);
-  soft.rolling = 0.002;
+  soft.rolling_friction = 0.002;
   ContactScene ball;
   ball.floor(soft);
   const int id = ball.body(Sphere{0.1}, 1, soft, {{0, 0, 0.1}, {1, 0, 0}, {0, 10, 0}});

@@ -203,7 +203,7 @@ TEST_CASE(
       "false\n"
       "[[pair]]\na = 'b'\nb = 'c'\nfriction = 0.7\n[[pair]]\na = 'a'\nb = 'c'\ncollide = false\n");
   REQUIRE(scene.geometries.size() == 3);
-  const Surface ab = scene.surface_of_pair(0, 1);
+  const ContactSurface ab = scene.surface_of_pair(0, 1);
   CHECK(ab.friction == doctest::Approx(0.6).epsilon(1e-15));
   CHECK(ab.restitution == doctest::Approx(0.4).epsilon(1e-15));
   CHECK(ab.rolling_friction == 0.01);
@@ -223,13 +223,13 @@ TEST_CASE("scene: the springs of a pair are in series, unless overridden") {
             "stiffness = 6e5\ndissipation = 4\n[[body]]\nname = 'c'\n" + shape +
             "[[pair]]\na = 'c'\nb = 'a'\nstiffness = 7\n" +
             "[[pair]]\na = 'b'\nb = 'c'\ndissipation = 0\n");
-  const Surface ab = scene.surface_of_pair(0, 1);
+  const ContactSurface ab = scene.surface_of_pair(0, 1);
   CHECK(ab.stiffness == doctest::Approx(2e5).epsilon(1e-15));
   CHECK(ab.dissipation == doctest::Approx((2 * 1 + 1 * 4) / 3.0).epsilon(1e-15));
-  const Surface ac = scene.surface_of_pair(0, 2);  // of the default 1e6 N/m and 1 s/m
+  const ContactSurface ac = scene.surface_of_pair(0, 2);  // of the default 1e6 N/m and 1 s/m
   CHECK(ac.stiffness == 7);
   CHECK(ac.dissipation == doctest::Approx(1).epsilon(1e-15));
-  const Surface bc = scene.surface_of_pair(1, 2);
+  const ContactSurface bc = scene.surface_of_pair(1, 2);
   CHECK(bc.stiffness == doctest::Approx(3.75e5).epsilon(1e-15));
   CHECK(bc.dissipation == 0);
 }
