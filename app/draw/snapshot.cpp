@@ -23,9 +23,9 @@ std::vector<std::size_t> shown_couplings(const SceneModel& scene) {
   std::vector<std::size_t> found;
   for (std::size_t c = 0; c < all.size(); ++c) {
     const auto outranks = [&](const SceneCoupling& other) {
-      return other.robot == all[c].robot && other.target != CouplingTarget::Kind::start;
+      return other.robot == all[c].robot && other.target.kind != CouplingTarget::Kind::start;
     };
-    if (all[c].target == CouplingTarget::Kind::start && std::ranges::any_of(all, outranks))
+    if (all[c].target.kind == CouplingTarget::Kind::start && std::ranges::any_of(all, outranks))
       continue;
     const auto same = std::ranges::find_if(
         found, [&](std::size_t other) { return is_same_target(all[c], all[other]); });
@@ -116,8 +116,7 @@ Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const S
   for (const std::size_t c : shown_couplings(scene)) {
     const SceneCoupling& spec = scene.couplings[c];
     snapshot.targets.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
-    if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
-      continue;
+    if (!spec.target.is_operator()) continue;
     const OperatorSample sampled = couplings.motion(c).sample(x.t, x.t + 1e-6);
     snapshot.devices.push_back({sampled.theta, sampled.button});
   }

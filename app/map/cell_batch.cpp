@@ -27,12 +27,13 @@ bool is_plain(const SimulatePlan& plan) {
          !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
          scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
          std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
-           return c.is_plain_spring() && c.target != CouplingTarget::Kind::synthetic;
+           return c.is_plain_spring() && c.target.kind != CouplingTarget::Kind::synthetic;
          });
 }
 
 std::unique_ptr<OperatorMotion> motion_of(const SceneCoupling& coupling) {
-  if (coupling.target == CouplingTarget::Kind::trace) return read_motion_file(coupling.trace);
+  if (coupling.target.kind == CouplingTarget::Kind::trace)
+    return read_motion_file(coupling.target.trace);
   return std::make_unique<AutomaticMotion>(
       OperatorMapping{});  // of a target at rest it moves nothing
 }
@@ -62,9 +63,10 @@ struct LaneRunner {
     setup.measured = joints.iq;
     add_target(measured);
     for (const SceneCoupling& c : scene.couplings) {
-      const bool same = c.target == measured.target && c.driven.turned == measured.driven.turned &&
-                        c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
-                        c.rest.q == measured.rest.q;
+      const bool same = c.target.kind == measured.target.kind &&
+                        c.driven.turned == measured.driven.turned &&
+                        c.driven.gripper == measured.driven.gripper &&
+                        c.target.trace == measured.target.trace && c.rest.q == measured.rest.q;
       if (!same) add_target(c);
       setup.springs.push_back({c.is_linear()                     ? SpringKind::linear
                                : c.measure == SpringSpace::world ? SpringKind::world
@@ -133,7 +135,7 @@ struct LaneRunner {
         for (std::size_t i = 0; i < 3; ++i)
           gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
       cell.springs.push_back(gains);
-      const CouplingTarget::Kind target = base.input.scene->couplings[c].target;
+      const CouplingTarget::Kind target = base.input.scene->couplings[c].target.kind;
       if (target != CouplingTarget::Kind::paper && target != CouplingTarget::Kind::trace) continue;
       const double speed = number_or(table, "speed", 1), delay = number_or(table, "delay", 0);
       if (has_motion && (speed != cell.speed || delay != cell.delay)) return std::nullopt;

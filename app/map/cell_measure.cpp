@@ -20,15 +20,10 @@ constexpr double kMaxCreated = 100, kReversals = 25,
                  kFallHeight = 1e-3;  // cell_measure.h; the last [m]
 constexpr int kTargetSamples = 64;
 
-bool is_moved(const SceneCoupling& coupling) {
-  return coupling.target != CouplingTarget::Kind::start &&
-         coupling.target != CouplingTarget::Kind::state;
-}
-
 // Largest energy of the target during its motion; 0 at rest [J].
 double max_target_energy(const SimulatePlan& plan, std::size_t c) {
   SceneCouplings& couplings = *plan.input.couplings;
-  if (!is_moved(couplings.spec(c))) return 0;
+  if (!couplings.spec(c).target.is_operator()) return 0;
   const Model<double>& model = plan.input.robot.model;
   const double height = potential_energy(model, couplings.target(c, 0).x);
   double max = 0;
@@ -89,7 +84,7 @@ MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
   };
   for (const std::string& name : of.driven.turned)
     add(static_cast<std::size_t>(model.find_joint(name)));
-  for (int body = is_moved(of) ? 0 : of.spring.body; body > 0;
+  for (int body = of.target.is_operator() ? 0 : of.spring.body; body > 0;
        body = model.parent[static_cast<std::size_t>(body)])
     add(static_cast<std::size_t>(body));
   return joints;

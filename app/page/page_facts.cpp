@@ -65,7 +65,7 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
                     scene.model.body_name[static_cast<std::size_t>(c.spring.body)],
                     number_text(c.spring.k), number_text(c.spring.b), name_of(c.discretization),
                     c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",
-                    targets[static_cast<std::size_t>(c.target)]});
+                    targets[static_cast<std::size_t>(c.target.kind)]});
   }
   return rows;
 }

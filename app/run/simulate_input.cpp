@@ -111,7 +111,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   faults.check();
   std::vector<std::string> warnings = made.description.warnings;
   if (!options.has_operator && std::ranges::any_of(made.couplings, [](const SceneCoupling& c) {
-        return c.target == CouplingTarget::Kind::device;
+        return c.target.kind == CouplingTarget::Kind::device;
       }))
     warnings.push_back(
         "couplings with target = \"device\" stay at rest in this command; `twinarm hand` runs the "

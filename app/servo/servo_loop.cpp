@@ -150,7 +150,7 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
   std::vector<std::size_t> driven;
   for (std::size_t c = 0; c < scene.couplings.size(); ++c) {
     const SceneCoupling& coupling = scene.couplings[c];
-    if (coupling.target != CouplingTarget::Kind::device) continue;
+    if (coupling.target.kind != CouplingTarget::Kind::device) continue;
     driven.push_back(c);
     if (!coupling.is_first_component()) continue;
     const std::string where = "coupling '" + coupling.coupling + "'";

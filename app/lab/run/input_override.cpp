@@ -8,7 +8,7 @@ namespace {
 
 // Priority of a coupling's target: input device, other operator motion, fixed.
 int rank_of_target(const SceneCoupling& coupling) {
-  if (coupling.target == CouplingTarget::Kind::device) return 2;
+  if (coupling.target.kind == CouplingTarget::Kind::device) return 2;
   return coupling.driven.turned.empty() ? 0 : 1;
 }
 

@@ -33,7 +33,7 @@ LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
   variants_.place(stage_.instants.front(), stage_.extent);
   const bool follows_device = std::ranges::any_of(
       snapshots_.components(),
-      [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; });
+      [](const SceneCoupling& c) { return c.target.kind == CouplingTarget::Kind::device; });
   set_live_view(stage_, start, follows_device);
   store_.take(stage_.list);
 }

@@ -28,15 +28,16 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
                                                  const SceneCoupling& coupling,
                                                  const OperatorMotion* device,
                                                  DiagnosticList& faults) {
-  switch (coupling.target) {
+  switch (coupling.target.kind) {
     case CouplingTarget::Kind::paper:
       return std::make_unique<AutomaticMotion>(OperatorMapping{});
     case CouplingTarget::Kind::trace:
-      if (auto motion = attempt(faults, [&] { return read_motion_file(coupling.trace); }))
+      if (auto motion = attempt(faults, [&] { return read_motion_file(coupling.target.trace); }))
         return std::move(*motion);
       break;
     case CouplingTarget::Kind::synthetic:
-      return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration, coupling.ranges);
+      return std::make_unique<SyntheticOperator>(coupling.target.seed, coupling.target.duration,
+                                                 coupling.target.ranges);
     case CouplingTarget::Kind::device:
       return std::make_unique<OverridableMotion>(rest_position(scene.model, coupling),
                                                  [device](double, double) { return device; });

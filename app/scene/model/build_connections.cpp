@@ -127,7 +127,7 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
   made.coupling = given.name;
   made.first_component = scene.couplings.size();
   made.robot = robot_named(scene.description, given.robot);
-  made.target = given.target.kind;
+  made.target = given.target;
   made.rest = scene.start;
   made.rest.qd.assign(scene.model.nv, 0);
   set_coordinates(scene, made.robot, given.target.q, made.rest);
@@ -136,10 +136,6 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
     made.driven.gripper = name_in_scene(scene.description, made.robot, given.target.gripper);
   made.driven.gripper_open = given.target.open;
   made.driven.gripper_closed = given.target.closed;
-  made.trace = given.target.trace;
-  made.seed = given.target.seed;
-  made.duration = given.target.duration;
-  made.ranges = given.target.ranges;
   return made;
 }
 
@@ -217,9 +213,10 @@ void build_couplings(SceneModel& scene) {
 }
 
 bool SceneCoupling::has_motion_of(const SceneCoupling& other) const {
-  return robot == other.robot && target == other.target && trace == other.trace &&
-         seed == other.seed && ranges == other.ranges && duration == other.duration &&
-         delay == other.delay && speed == other.speed;
+  const CouplingTarget& its = other.target;
+  return robot == other.robot && target.kind == its.kind && target.trace == its.trace &&
+         target.seed == its.seed && target.ranges == its.ranges &&
+         target.duration == its.duration && delay == other.delay && speed == other.speed;
 }
 
 bool SceneCoupling::needs_semi_implicit() const {

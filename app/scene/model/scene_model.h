@@ -45,14 +45,10 @@ struct SceneCoupling : CouplingTraits {
   std::vector<Spring> springs;      // of the whole coupling; only in the first component
   // The target: a copy of the whole model in which the operator motion moves joints of this robot;
   // the others are as in `rest`.
-  CouplingTarget::Kind target = CouplingTarget::Kind::start;
+  CouplingTarget target;
   std::size_t robot = 0;
   State<double> rest;
   DrivenJoints driven;  // joints that the operator motion moves
-  std::filesystem::path trace;
-  unsigned seed = 1;     // of a synthetic operator
-  double duration = 20;  // of a synthetic operator [s]
-  SyntheticRanges ranges;
 
   // Its operator motion is that of `other`, of the same robot.
   bool has_motion_of(const SceneCoupling& other) const;

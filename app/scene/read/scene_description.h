@@ -95,7 +95,8 @@ struct CouplingTarget {
   double open = 0, closed = 0;  // its position with the button released, pressed
 
   // Moved by an operator motion.
-  bool is_operator() const { return kind != Kind::start && kind != Kind::state; }
+  static bool is_operator(Kind kind) { return kind != Kind::start && kind != Kind::state; }
+  bool is_operator() const { return is_operator(kind); }
 };
 
 // Common to a coupling and its components in the model (SceneCoupling).

@@ -67,11 +67,8 @@ double& at(CouplingDescription& coupling) {
   return (coupling.*....*members);
 }
 
-bool moves(TargetKind kind) {
-  return kind != TargetKind::start && kind != TargetKind::state;
-}
 bool is_played(TargetKind kind) {
-  return moves(kind) && kind != TargetKind::device;
+  return CouplingTarget::is_operator(kind) && kind != TargetKind::device;
 }
 
 constexpr const char* kNoGain = "this type of coupling has no such gain";
@@ -158,7 +155,7 @@ const std::vector<CouplingKey>& coupling_keys() {
        .useless = "needs a moving target",
        .unit = "s", .number = at<&C::delay>,
        .slider = {.meaning = "Delay of the target's motion."},
-       .of_target = moves, .help = "leave it out, or give a moving target"},
+       .of_target = CouplingTarget::is_operator, .help = "leave it out, or give a moving target"},
       {.key = "speed", .has = any_coupling,
        .useless = "needs a target that is a named motion or a trace",
        .range = kPositive, .number = at<&C::speed>,

@@ -261,7 +261,7 @@ TEST_CASE("presets: each has a scene, and the input source that it names") {
   for (const Preset& preset : all_presets()) {
     INFO(preset.name);
     const SimulatePlan plan = planned(folder / preset.scene, preset.changes);
-    const auto target = plan.input.scene->couplings[0].target;
+    const auto target = plan.input.scene->couplings[0].target.kind;
     CHECK((target == CouplingTarget::Kind::paper) == (preset.hand == "scene"));
     CHECK((target == CouplingTarget::Kind::device) == (preset.hand == "drag"));
     CHECK(std::ranges::count(all_presets(), preset.name, &Preset::name) == 1);
