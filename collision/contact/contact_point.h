@@ -50,7 +50,7 @@ struct ContactGeometry {
   Pose X_LG;     // pose in its link
   Shape shape;
   ContactSurface surface;
-  int group = 0;  // CollisionWorld::set_group_filter
+  int group = 0;  // as Geometry::group
 };
 
 // One contact point of the last step.

@@ -31,24 +31,12 @@ Aabb broad_phase_box(const PosedShape& body, double margin) {
   return {box.min() - grown, box.max() + grown};
 }
 
-void check_group(const std::string& where, int group, DiagnosticList& faults) {
-  constexpr int kCount = CollisionWorld::kGroupCount;
-  if (group < 0 || group >= kCount)
-    faults.add(where, "group is " + std::to_string(group),
-               "give a group from 0 to " + std::to_string(kCount - 1), "contact.group");
-}
-
 }  // namespace
 
 int CollisionWorld::add(Geometry geometry) {
-  const std::string where = "geometry '" + geometry.name + "'";
-  DiagnosticList faults;
-  const std::string fault = shape_fault(geometry.shape);
-  if (!fault.empty())
-    faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape",
-               "shape.numbers");
-  check_group(where, geometry.group, faults);
-  faults.check();
+  if (const std::string fault = shape_fault(geometry.shape); !fault.empty())
+    throw InputError("geometry '" + geometry.name + "'", shape_name(geometry.shape) + ": " + fault,
+                     "correct the shape", "shape.numbers");
 
   const int id = size();
   geometries_.push_back(std::move(geometry));
@@ -71,40 +59,21 @@ int CollisionWorld::add(Geometry geometry) {
 
 void CollisionWorld::check_pair(int a, int b) const {
   if (!may_collide(a, b) || is_supported(geometry(a).shape, geometry(b).shape)) return;
-  throw InputError(
-      "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
-      "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
-          shape_name(geometry(b).shape),
-      "keep their groups apart with set_group_filter() before adding them, or fix both",
-      "contact.pair");
-}
-
-void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
-  DiagnosticList faults;
-  for (int group : {group_a, group_b}) check_group("group filter", group, faults);
-  faults.check();
-  const auto before = mask_;
-  const std::uint32_t bit_a = 1u << group_a, bit_b = 1u << group_b;
-  mask_[group_a] = collide ? mask_[group_a] | bit_b : mask_[group_a] & ~bit_b;
-  mask_[group_b] = collide ? mask_[group_b] | bit_a : mask_[group_b] & ~bit_a;
-  try {
-    for (int i = 0; i < size(); ++i)
-      for (int j = 0; j < i; ++j) check_pair(j, i);
-  } catch (...) {
-    mask_ = before;
-    throw;
-  }
+  throw InputError("geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
+                   "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
+                       shape_name(geometry(b).shape),
+                   "give both one group other than 0, or fix both", "contact.pair");
 }
 
 bool CollisionWorld::may_collide(int a, int b) const {
-  const bool groups = (mask_[geometry(a).group] >> geometry(b).group) & 1u;
+  const bool one_group = geometry(a).group != 0 && geometry(a).group == geometry(b).group;
   const bool one_body = geometry(a).body >= 0 && geometry(a).body == geometry(b).body;
-  return groups && a != b && !one_body &&
+  return a != b && !one_group && !one_body &&
          !(is_excluded_ && is_excluded_(std::min(a, b), std::max(a, b)));
 }
 
-// Broad phase: fills pairs_ with all overlapping pairs of boxes_ (i < j), unsorted. Up to 64 boxes in
-// O(n^2); more by FCL's dynamic AABB tree, O(n log n + pairs). Both find the same pairs.
+// Broad phase: fills pairs_ with all overlapping pairs of boxes_ (i < j), unsorted. Up to 64 boxes
+// in O(n^2); more by FCL's dynamic AABB tree, O(n log n + pairs). Both find the same pairs.
 void CollisionWorld::find_overlaps() {
   constexpr std::size_t kMaxAllPairs = 64;  // boxes
   pairs_.clear();

@@ -1,8 +1,6 @@
 // The public class of collision detection.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -30,7 +28,7 @@ namespace twinarm {
 struct Geometry {
   std::string name;
   Shape shape;
-  int group = 0;  // 0 to 31
+  int group = 0;  // geometries of one group other than 0 do not collide
   int body = -1;  // geometries of one body do not collide; -1: a body of its own
 };
 
@@ -44,11 +42,8 @@ struct Contact {
 
 class CollisionWorld {
  public:
-  static constexpr int kGroupCount = 32;
-  CollisionWorld() { mask_.fill(~std::uint32_t{0}); }
-
-  // Returns the id: 0, 1, 2 ... Throws InputError for an invalid shape or group, and for an
-  // unsupported pair (two half-spaces) that is not filtered out.
+  // Returns the id: 0, 1, 2 ... Throws InputError for an invalid shape, and for an unsupported
+  // pair (two half-spaces) that is not filtered out.
   int add(Geometry geometry);
   const Geometry& geometry(int id) const { return geometries_[static_cast<std::size_t>(id)]; }
   int size() const { return static_cast<int>(geometries_.size()); }
@@ -57,8 +52,6 @@ class CollisionWorld {
   void set_pair_filter(std::function<bool(int a, int b)> is_excluded) {
     is_excluded_ = std::move(is_excluded);
   }
-  // Whether geometries of two groups (or of one) collide; default: all do.
-  void set_group_filter(int group_a, int group_b, bool collide);
   bool may_collide(int a, int b) const;
 
   // Contacts with depth > -(margin_a + margin_b) at the poses X_WG[id], ordered by (a, b, feature);
@@ -82,9 +75,8 @@ class CollisionWorld {
 
   std::vector<Geometry> geometries_;
   std::vector<PreparedShape> solids_;
-  std::array<std::uint32_t, kGroupCount> mask_;  // bit j of mask i: groups i and j collide
   std::function<bool(int, int)> is_excluded_;
-  std::vector<double> margins_;  // of detect() with one margin
+  std::vector<double> margins_;    // of detect() with one margin
   std::unique_ptr<BoxTree> tree_;  // of many boxes; null until it is needed
   NarrowPhase narrow_phase_;
   MeshContact mesh_contact_;

@@ -17,7 +17,6 @@ class BoxContacts {
       : contacts_(model, ContactResponse::compliant) {
     const StudySettings& s = inputs.settings;
     ContactBodies& bodies = contacts_.bodies();
-    bodies.world().set_group_filter(kLinks, kLinks, false);
     for (const LinkDescription& link : inputs.s103.links) {
       if (link.name == inputs.s103.root) continue;
       for (const CollisionPart& part : link.collisions)

@@ -18,11 +18,10 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
   ContactConstraints contact(model, ContactResponse::compliant);
   ContactBodies& bodies = contact.bodies();
   const ContactSurface surface{.friction = friction, .stiffness = 2e8};  // in series: 1e8 N/m
-  bodies.add({"fore", 2, {Matrix3::Identity(), {0.2, 0, 0}}, Box{{0.4, 0.05, 0.06}}, surface, 0});
+  bodies.add({"fore", 2, {Matrix3::Identity(), {0.2, 0, 0}}, Box{{0.4, 0.05, 0.06}}, surface, 1});
   bodies.add(
-      {"upper", 1, {Matrix3::Identity(), {0.125, 0, 0}}, Box{{0.25, 0.06, 0.06}}, surface, 0});
-  bodies.add({"post", 0, {Matrix3::Identity(), {0.45, 0, 0}}, Box{{0.12, 0.12, 0.5}}, surface, 1});
-  bodies.world().set_group_filter(0, 0, false);
+      {"upper", 1, {Matrix3::Identity(), {0.125, 0, 0}}, Box{{0.25, 0.06, 0.06}}, surface, 1});
+  bodies.add({"post", 0, {Matrix3::Identity(), {0.45, 0, 0}}, Box{{0.12, 0.12, 0.5}}, surface, 0});
   const double q1 = -1.6 * direction, w1 = direction * speed, w2 = 0.5 * w1;
   SteadyHand hand;
   hand.angle = {q1, q2, 0};
