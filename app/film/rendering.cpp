@@ -107,7 +107,7 @@ class Rendering::View {
     const bool is_static = run_.shown.size() == 1 && instant.x.t == 0;
     list.title = is_static ? view_.name : fmt::format("{}, t = {:.3f} s", view_.name, instant.x.t);
     const bool is_film = run_.shown.size() > 1;
-    copy_into(image, is_film ? painter_->paint_next(list) : painter_->paint(list), left_, 0);
+    copy_into(image, painter_->paint(list, is_film), left_, 0);
     if (strip_) copy_into(image, strip_->at(instant.x.t), left_, height_);
   }
   const std::vector<LegendLine>& legend() const { return legend_; }

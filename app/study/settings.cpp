@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "app/data/table_reader.h"
 #include "solver/support/diagnostics.h"
@@ -16,33 +17,20 @@ class SettingsTable : public TableReader {
  public:
   SettingsTable(const Value& table, std::string where, const std::string& file,
                 DiagnosticList& faults)
-      : TableReader(table, std::move(where), file, faults), file_(file), faults_(faults) {}
+      : TableReader(table, std::move(where), file, faults), faults_(faults) {}
 
   SettingsTable part(const std::string& key) {
     static const Value kNone;
     missing(key, kFix);
     const Value* part = table(key);
-    return {part ? *part : kNone, key, file_, faults_};
+    return {part ? *part : kNone, key, file(), faults_};
   }
-  double number(const std::string& key) {
-    missing(key, kFix);
-    return TableReader::number(key).value_or(0);
-  }
-  double positive(const std::string& key) {
-    missing(key, kFix);
-    return TableReader::positive(key).value_or(0);
-  }
-  double not_negative(const std::string& key) {
-    missing(key, kFix);
-    return TableReader::not_negative(key).value_or(0);
-  }
-  std::string text(const std::string& key) {
-    missing(key, kFix);
-    return TableReader::text(key).value_or("");
-  }
+  double number(const std::string& key) { return required(&TableReader::number, key); }
+  double positive(const std::string& key) { return required(&TableReader::positive, key); }
+  double not_negative(const std::string& key) { return required(&TableReader::not_negative, key); }
+  std::string text(const std::string& key) { return required(&TableReader::text, key); }
   Vector3 vector(const std::string& key) {
-    missing(key, kFix);
-    return TableReader::vector(key).value_or(Vector3::Zero());
+    return required(&TableReader::vector, key, Vector3::Zero());
   }
   unsigned whole(const std::string& key) {
     const double value = number(key);
@@ -76,6 +64,13 @@ class SettingsTable : public TableReader {
   }
 
  private:
+  template <class T>
+  T required(std::optional<T> (TableReader::*read)(const std::string&), const std::string& key,
+             const std::type_identity_t<T>& none = {}) {
+    missing(key, kFix);
+    return (this->*read)(key).value_or(none);
+  }
+
   // A nonempty list; of `count` items if that is not 0.
   std::vector<Value> items(const std::string& key, Value::Kind kind, const std::string& wanted,
                            std::size_t count = 0) {
@@ -89,12 +84,10 @@ class SettingsTable : public TableReader {
     return {};
   }
 
-  const std::string& file_;
   DiagnosticList& faults_;
 };
 
-void read_robot(SettingsTable robot, const std::string& file, DiagnosticList& faults,
-                StudySettings& s) {
+void read_robot(SettingsTable robot, DiagnosticList& faults, StudySettings& s) {
   s.urdf = s.assets / robot.text("urdf");
   s.joints.turned = robot.texts("turned", 3);
   s.joints.gripper = robot.text("gripper");
@@ -105,7 +98,7 @@ void read_robot(SettingsTable robot, const std::string& file, DiagnosticList& fa
   if (mounts.size() != 2)  // one for each linear spring
     robot.fault("mount", "must be 2 tables [[robot.mount]]", kFix, "study.mounts");
   for (const Value* one : mounts) {
-    SettingsTable mount(*one, "robot.mount", file, faults);
+    SettingsTable mount(*one, "robot.mount", robot.file(), faults);
     s.mounts.push_back({mount.text("link"), mount.vector("point")});
     mount.done();
   }
@@ -122,7 +115,7 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   SettingsTable all(root, "settings", file, faults);
   StudySettings s;
   s.assets = assets;
-  read_robot(all.part("robot"), file, faults, s);
+  read_robot(all.part("robot"), faults, s);
   SettingsTable auxiliary = all.part("auxiliary"), protocol = all.part("protocol"),
                 person = all.part("operator"), obstacle = all.part("obstacle"),
                 far = all.part("far_target");

@@ -1,6 +1,7 @@
 #include "app/support/text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/support/number_text.h"
 
@@ -95,6 +96,13 @@ std::string csv_line(const std::vector<double>& numbers) {
   std::string line;
   for (const double number : numbers) line += (line.empty() ? "" : ",") + number_text(number);
   return line;
+}
+
+SiPrefix si_prefix(double value) {
+  SiPrefix found{1e-9, "n"};
+  for (const SiPrefix& p : {SiPrefix{1e-6, "µ"}, {1e-3, "m"}, {1, ""}, {1e3, "k"}, {1e6, "M"}})
+    if (std::abs(value) >= 0.9995 * p.factor) found = p;
+  return value == 0 ? SiPrefix{1, ""} : found;
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Names and their misspellings, CSV; errors collected from several calls.
+// Names and their misspellings, CSV, SI prefixes; errors collected from several calls.
 #pragma once
 
 #include <optional>
@@ -55,6 +55,13 @@ std::vector<std::string> names_of(const Items& items) {
 std::string csv_field(const std::string& text);                // quoted if necessary; no formula
 std::string csv_line(const std::vector<std::string>& fields);  // without line end
 std::string csv_line(const std::vector<double>& numbers);
+
+// Of the unit in which the value is from 1 to 1000, or nano if it is smaller; of 0 none.
+struct SiPrefix {
+  double factor;
+  const char* name;
+};
+SiPrefix si_prefix(double value);
 
 // ---- names that replaced others in options, scene files and JSON output (assets/renamed.json)
 // ----

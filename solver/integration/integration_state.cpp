@@ -20,15 +20,8 @@ void store_motion(const Model<double>& model, std::size_t body, const Prescribed
   const Vector3 w = R_LJ * motion.angular_velocity, v = R_LJ * motion.velocity;
   const Vector3 w_rate = R_LJ * motion.angular_acceleration;
   const Vector3 v_rate = R_LJ * motion.acceleration - w.cross(v);
-  for (int c = 0; c < 3; ++c) {
-    q[c] = motion.X_JL.p[c];
-    q[4 + c] = rotation.vec()[c];
-    given[c] = w[c];
-    given[3 + c] = v[c];
-    given[6 + c] = w_rate[c];
-    given[9 + c] = v_rate[c];
-  }
-  q[3] = rotation.w();
+  Eigen::Map<Eigen::Vector<double, 7>>(q) << motion.X_JL.p, rotation.w(), rotation.vec();
+  Eigen::Map<Eigen::Vector<double, 12>>(given) << w, v, w_rate, v_rate;
 }
 
 void visit_state(StateArchive& archive, const Model<double>& model, State<double>& x) {

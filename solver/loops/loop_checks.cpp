@@ -92,11 +92,11 @@ std::vector<DiagnosticList> faults_by_loop(const Model<double>& model,
   for (const LoopClosure& loop : loops)
     visit_loop(loop.type, [&](auto type) { rows += decltype(type)::rows; });
   if (rows * model.nv > kMaxLoopEntries)
-    throw InputError({{"", 0, "loops",
-                       std::to_string(rows) + " constraint rows on " + std::to_string(model.nv) +
-                           " velocities: more than " + std::to_string(kMaxLoopEntries) +
-                           " matrix entries",
-                       "give fewer loops or bodies", "loop.too-many"}});
+    throw InputError(
+        {{"", 0, "loops",
+          std::to_string(rows) + " constraint rows on " + std::to_string(model.nv) +
+              " velocities: more than " + std::to_string(kMaxLoopEntries) + " matrix entries",
+          "give fewer loops or bodies", "loop.too-many"}});
   std::vector<DiagnosticList> faults(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) {
     OneLoop(model, loops[l], faults[l]).check();

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "app/draw/curves.h"
+#include "app/support/text.h"
 #include "solver/spatial/rotation_to_axis.h"
 
 namespace twinarm {
@@ -67,19 +67,11 @@ std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
 
 std::string with_unit(double value, const std::string& unit) {
   if (value == 0) return "0 " + unit;
-  const double size = std::abs(value);
-  struct Prefix {
-    double factor;
-    const char* text;
-  };
-  constexpr std::array<Prefix, 5> kPrefixes{
-      {{1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "\u00b5"}}};
-  // No prefix for products of units and kg.
-  const bool plain = unit.find(' ') == std::string::npos && unit != "kg";
-  for (const Prefix& prefix : kPrefixes)
-    if (plain && size >= 0.9995 * prefix.factor)
-      return fmt::format("{:.3g} {}{}", value / prefix.factor, prefix.text, unit);
-  return fmt::format("{:.3g} {}", value, unit);
+  const SiPrefix prefix = si_prefix(value);
+  // No prefix for products of units and kg, nor for less than 1e-6.
+  if (unit.find(' ') != std::string::npos || unit == "kg" || prefix.factor < 1e-6)
+    return fmt::format("{:.3g} {}", value, unit);
+  return fmt::format("{:.3g} {}{}", value / prefix.factor, prefix.name, unit);
 }
 
 void add_rotation_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W,

@@ -190,12 +190,8 @@ Painter::Painter(Backend backend, int width, int height, Quality quality)
     : impl_(std::make_unique<Impl>(backend, width, height, quality)) {}
 Painter::~Painter() = default;
 
-Image Painter::paint(const DrawList& list) {
-  return impl_->paint(list, false);
-}
-
-Image Painter::paint_next(const DrawList& list) {
-  return impl_->paint(list, true);
+Image Painter::paint(const DrawList& list, bool is_next) {
+  return impl_->paint(list, is_next);
 }
 
 }  // namespace twinarm

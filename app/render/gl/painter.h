@@ -51,9 +51,8 @@ class Painter {
   Painter(Backend backend, int width, int height, Quality quality = Quality::normal);
   ~Painter();
 
-  Image paint(const DrawList& list);
-  // As the next picture of a film: labels move smoothly.
-  Image paint_next(const DrawList& list);
+  // is_next: as the next picture of a film, labels move smoothly.
+  Image paint(const DrawList& list, bool is_next = false);
 
  private:
   class Impl;

@@ -98,9 +98,7 @@ std::array<float, 3> to_float(const Vector3& v) {
 
 void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
   if (vertices.empty()) return;
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : vertices) box.extend(p);
-  mesh.bound_center = box.center();
+  mesh.bound_center = bounding_box(vertices).center();
   for (const Vector3& p : vertices)
     mesh.bound_radius = std::max(mesh.bound_radius, (p - mesh.bound_center).norm());
 }

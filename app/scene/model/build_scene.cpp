@@ -35,9 +35,7 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
   const auto* file = std::get_if<MeshGeometry>(&body.shape);
   if (!file) return;
   TriangleMesh mesh = load_mesh(*file);
-  Vector3 low = mesh.vertices[0], high = low;
-  for (const Vector3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
-  const double width = (high - low).maxCoeff();
+  const double width = bounding_box(mesh.vertices).sizes().maxCoeff();
   if (width > kWideMesh)
     scene.warnings.push_back(scene.file.string() + ":" + std::to_string(body.line) + ": body '" +
                              body.name + "': its mesh is " + short_number_text(width) +
@@ -224,13 +222,8 @@ class SceneBuilder {
     double* qd = scene_.start.qd.data() + scene_.model.iv[i];
     const Eigen::Quaterniond rotation(X_WB.R);
     const Vector3 w_B = X_WB.R.transpose() * w_W;
-    q[3] = rotation.w();
-    for (int c = 0; c < 3; ++c) {
-      q[c] = X_WB.p[c];
-      q[4 + c] = rotation.vec()[c];
-      qd[c] = w_B[c];
-      qd[3 + c] = v_W[c];
-    }
+    Eigen::Map<Eigen::Vector<double, 7>>(q) << X_WB.p, rotation.w(), rotation.vec();
+    Eigen::Map<Eigen::Vector<double, 6>>(qd) << w_B, v_W;
   }
 
   ModelOptions options_;

@@ -5,24 +5,9 @@
 #include <regex>
 
 #include "app/study/report/report_slots.h"
+#include "app/support/text.h"
 
 namespace twinarm {
-namespace {
-
-struct Prefix {
-  double factor;
-  const char* name;
-};
-// Of the unit in which the value is between 1 and 1000.
-Prefix prefix_of(double value) {
-  Prefix found{1e-9, "n"};
-  for (const Prefix& p : {Prefix{1e-6, "µ"}, {1e-3, "m"}, {1, ""}, {1e3, "k"}, {1e6, "M"}})
-    if (std::abs(value) >= 0.9995 * p.factor || value == 0) found = p;
-  return value == 0 ? Prefix{1, ""} : found;
-}
-
-}  // namespace
-
 std::string typeset(const std::string& text) {
   static const std::pair<std::regex, const char*> rules[] = {
       {std::regex("\\b([kbKB])_?([12q])\\b"), "$1<sub>$2</sub>"},
@@ -55,7 +40,7 @@ std::string degrees(double value) {
 
 std::string quantity(double value, const std::string& unit, int digits) {
   if (unit.empty()) return rounded(value, digits);
-  const Prefix prefix = prefix_of(value);
+  const SiPrefix prefix = si_prefix(value);
   return rounded(value / prefix.factor, digits) + "\u00a0" + prefix.name + unit;
 }
 
