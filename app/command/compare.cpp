@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <thread>
 
 #include "app/command/command.h"
@@ -75,29 +74,20 @@ std::vector<CompareRow> run_all(const CaseSelection& selection,
   return rows;
 }
 
-// The sections of the page, in the order of the rows. The longest are made first, to balance the
-// threads.
+// The sections of the page.
 std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
                                        const std::vector<Integration>& integrations,
                                        Progress& progress, double share) {
-  constexpr double kDrawing = 0.1;  // [s], added to the duration of a case
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(
-      order, [&](std::size_t a, std::size_t b) { return rows[a].seconds > rows[b].seconds; });
-  std::vector<double> before{0};  // [s], of the first n
-  for (const std::size_t i : order) before.push_back(before.back() + rows[i].seconds + kDrawing);
-  std::vector<std::string> sections(rows.size());
+  const std::size_t count = rows.size();
+  std::vector<std::string> sections(count);
   parallel_for(
-      rows.size(),
-      [&](std::size_t i) {
-        sections[order[i]] = compare_page::case_section(rows[order[i]], integrations);
-      },
+      count,
+      [&](std::size_t i) { sections[i] = compare_page::case_section(rows[i], integrations); },
       [&](std::size_t done) {
         check_interrupt();
-        if (done < order.size())
-          progress.at(rows[order[done]].test->name,
-                      1 - share + share * before[done] / before.back());
+        if (done < count)
+          progress.at(rows[done].test->name, 1 - share + share * static_cast<double>(done) /
+                                                             static_cast<double>(count));
       });
   return sections;
 }

@@ -90,10 +90,9 @@ BuildRequest first_request(const LabOptions& options, const std::vector<GalleryS
 BuildResult first_scene(const LabOptions& options, const std::vector<GalleryScene>& gallery) try {
   return build(first_request(options, gallery));
 } catch (const InputError& error) {
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults)
+  throw error.changed([](Diagnostic& fault) {
     if (fault.where.starts_with("--set ")) fault.where.replace(0, 5, "--variants");
-  throw InputError(std::move(faults));
+  });
 }
 
 // What the page does when it is opened (app/web/src/pages/address.ts).

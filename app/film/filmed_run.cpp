@@ -89,13 +89,11 @@ SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& ti
     return prepare_simulation(options);
   } catch (const InputError& error) {
     const std::string option = times.is_film ? "--to" : "--at";
-    std::vector<Diagnostic> faults = error.faults();
-    for (Diagnostic& fault : faults) {
-      if (!is_of_option(fault, "duration")) continue;
+    throw error.changed([&](Diagnostic& fault) {
+      if (!is_of_option(fault, "duration")) return;
       fault.where = option;
       if (!fault.fix.empty()) fault.fix = "give " + option + " SECONDS";
-    }
-    throw InputError(std::move(faults));
+    });
   }
 }
 

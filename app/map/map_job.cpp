@@ -19,18 +19,13 @@ constexpr int kLineOfX = -1, kLineOfY = -2;
 constexpr double kMaxMapCells = 4.2e6, kMaxSteps = 1e8;  // of a map, of a cell
 
 InputError attributed_to_axes(const InputError& error, const MapJob& job, double x, double y) {
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults) {
-    if (fault.line != kLineOfX && fault.line != kLineOfY) continue;
+  return error.changed([&](Diagnostic& fault) {
+    if (fault.line != kLineOfX && fault.line != kLineOfY) return;
     const bool is_x = fault.line == kLineOfX;
-    fault = {"",
-             0,
-             (is_x ? "--x " + job.x.path : "--y " + job.y.path) + " = " + number_text(is_x ? x : y),
-             fault.where + ": " + fault.problem,
-             fault.fix,
-             fault.code};
-  }
-  return InputError(std::move(faults));
+    const std::string axis = is_x ? "--x " + job.x.path : "--y " + job.y.path;
+    const std::string where = axis + " = " + number_text(is_x ? x : y);
+    fault = {"", 0, where, fault.where + ": " + fault.problem, fault.fix, fault.code};
+  });
 }
 
 // The measured coupling, and units.

@@ -116,14 +116,9 @@ SimulatePlan UnpackedRun::prepare(const SimulateOptions& options) const try {
 InputError UnpackedRun::with_original_paths(const InputError& error,
                                             const std::vector<Change>& changes) const {
   const std::string folder = this->folder().string();
-  const auto remove_folder = [&](std::string& text) {
-    for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
-      text.erase(at, folder.size());
-  };
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults) {
+  return error.changed([&](Diagnostic& fault) {
     for (std::string* text : {&fault.file, &fault.where, &fault.problem, &fault.fix})
-      remove_folder(*text);
+      *text = replace_all(std::move(*text), folder, "");
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
       if (fault.line == line_of_change(i))
@@ -131,8 +126,7 @@ InputError UnpackedRun::with_original_paths(const InputError& error,
       else if (changes[i].path == "gravity" && is_of_option(fault, "gravity"))
         fault = {"", 0, typed, fault.problem, "write --set gravity=0,0,-9.81", fault.code};
     }
-  }
-  return InputError(std::move(faults));
+  });
 }
 
 bool is_recording(const std::filesystem::path& file) {

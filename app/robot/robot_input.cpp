@@ -19,12 +19,11 @@ template <class F>
 auto with_remedy(F f) try {
   return f();
 } catch (const InputError& error) {
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults)
+  throw error.changed([](Diagnostic& fault) {
     for (const char* code : {"model.no-inertia", "urdf.inertia-missing", "urdf.mass-missing"})
       if (fault.code == code)
         fault.fix += "; or give --density 1000 (of its shapes), or --min-mass 0.001";
-  throw InputError(std::move(faults));
+  });
 }
 
 std::optional<RobotDescription> read_model_file(const RobotOptions& options,

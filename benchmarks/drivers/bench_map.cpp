@@ -1,7 +1,6 @@
 // Steps per second of many coupled runs, as in parameter maps, with coupling, integration and
 // measures, by cells, threads and lanes; scripts/measure/map_throughput draws them.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>

@@ -41,6 +41,13 @@ class InputError : public std::runtime_error {
       : InputError({{"", 0, std::move(where), std::move(problem), std::move(fix), code}}) {}
   ~InputError() override;
   const std::vector<Diagnostic>& faults() const { return faults_; }
+  // The same errors after change(Diagnostic&) of each.
+  template <class F>
+  InputError changed(F&& change) const {
+    std::vector<Diagnostic> faults = faults_;
+    for (Diagnostic& fault : faults) change(fault);
+    return InputError(std::move(faults));
+  }
 
  private:
   std::vector<Diagnostic> faults_;

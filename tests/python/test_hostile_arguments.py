@@ -22,6 +22,7 @@ from test_stub import reported
 
 SECONDS = 0.25  # of a call, before it is interrupted
 PAIRS = 25  # further calls of each function, with several hostile arguments
+HINGE_SCENE = str(DATA / "hinge.toml")
 ARM_SCENE = str(SCENES / "robot_beside_obstacles.toml")
 MODEL = twinarm.load(PUMA)
 ZERO = np.zeros(6)
@@ -95,7 +96,7 @@ def hostile():
 def good(folder):
     """A valid value of each parameter, by its name."""
     body = {"model": MODEL, "robot": MODEL, "q": ZERO, "qd": ZERO, "tau": ZERO, "qdd": ZERO, "body": "link3",
-            "file": str(DATA / "hinge.toml"), "scene": str(DATA / "hinge.toml"), "recording": str(folder / "run.twinrec"),
+            "file": HINGE_SCENE, "scene": HINGE_SCENE, "recording": str(folder / "run.twinrec"),
             "M": [[1.0]], "K": [[1.0]], "B": [[0.1]], "scheme": "explicit Euler", "zeta": 0.1, "duration": 0.002,
             "count": 1, "name": "IA", "source": "coupling/x", "key": 0, "kind": None, "value": None, "trace": None,
             "data": {}}

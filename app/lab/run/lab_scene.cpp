@@ -54,12 +54,11 @@ SimulateOptions without_outputs(SimulateOptions options) {
 
 // Names the change in faults of the option that it set.
 InputError name_changes(const InputError& error, const std::vector<Change>& changes) {
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults)
+  return error.changed([&](Diagnostic& fault) {
     for (const Change& change : changes)
       if (is_of_option(fault, change.path))
         fault.where = "--set " + change.path + "=" + change.value;
-  return InputError(std::move(faults));
+  });
 }
 
 void put_file(RecordingHeader& header, const std::filesystem::path& path, std::string bytes) {

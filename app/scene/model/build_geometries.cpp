@@ -1,6 +1,5 @@
 // Geometries, their surfaces, and the pairs without contacts.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -173,16 +173,14 @@ class SceneBuilder {
     try {
       scene_.model = builder_.build();
     } catch (const InputError& error) {
-      std::vector<Diagnostic> faults = error.faults();
-      for (Diagnostic& fault : faults) {
+      throw error.changed([&](Diagnostic& fault) {
         fault.file = description().file.string();
         for (std::size_t r = 0; r < description().robots.size(); ++r) locate(r, fault);
         for (const BodyDescription& body : description().bodies)
           if (fault.where == link_called(body.name) ||
               fault.where == joint_called(free_joint_name(body.name)))
             fault.line = body.line;
-      }
-      throw InputError(faults);
+      });
     }
   }
 

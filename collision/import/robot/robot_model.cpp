@@ -85,16 +85,15 @@ Model<double> build(const ModelBuilder& builder, const RobotDescription& robot, 
   try {
     return builder.build(kinematic);
   } catch (const InputError& error) {
-    std::vector<Diagnostic> faults = error.faults();
-    for (Diagnostic& fault : faults) {
-      if (!fault.file.empty()) continue;
+    const InputError located = error.changed([&](Diagnostic& fault) {
+      if (!fault.file.empty()) return;
       fault.file = robot.file.string();
       for (const LinkDescription& link : robot.links)
         if (fault.where == link_called(link.name)) fault.line = link.line;
       for (const JointDescription& joint : robot.joints)
         if (fault.where == joint_called(joint.name)) fault.line = joint.line;
-    }
-    throw_in_line_order(std::move(faults));
+    });
+    throw_in_line_order(located.faults());
     throw;
   }
 }
