@@ -86,8 +86,8 @@ std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
       [&](std::size_t done) {
         check_interrupt();
         if (done < count)
-          progress.at(rows[done].test->name, 1 - share + share * static_cast<double>(done) /
-                                                             static_cast<double>(count));
+          progress.at(rows[done].test->name,
+                      1 - share + share * static_cast<double>(done) / static_cast<double>(count));
       });
   return sections;
 }
