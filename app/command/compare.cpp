@@ -74,7 +74,6 @@ std::vector<CompareRow> run_all(const CaseSelection& selection,
   return rows;
 }
 
-// The sections of the page.
 std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
                                        const std::vector<Integration>& integrations,
                                        Progress& progress, double share) {

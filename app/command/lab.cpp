@@ -240,7 +240,7 @@ class Lab {
   LabRoutes routes_;
 };
 
-int run_lab(const LabOptions& options) {
+int run_lab(const LabOptions& options) try {
   twinarm_assimp_reader();  // opens its module for the server too
   const ForkServer before_threads;
   isolate_parsers();
@@ -254,6 +254,9 @@ int run_lab(const LabOptions& options) {
   if (!options.no_browser) open_browser(url);
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return 0;
+} catch (const std::exception&) {
+  if (!is_interrupted()) throw;
+  return 0;  // while the first scene is read or built: Ctrl-C ends the lab then, too
 }
 
 }  // namespace

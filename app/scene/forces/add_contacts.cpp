@@ -36,7 +36,6 @@ std::vector<Shape> collision_shapes(const SceneModel& scene) {
                          "meshes that may touch have more than 300,000 triangles in all",
                          "give convex = true, or simplify them", "scene.too-many"}});
   }
-  if (convex.empty()) return shapes;
   Progress progress(false, Progress::kPatience);
   progress.stage("convex hulls", 1);
   auto hulls = parallel_results(
