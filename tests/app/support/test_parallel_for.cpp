@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <stdexcept>
+#include <thread>
 
 namespace twinarm {
 
@@ -27,10 +29,16 @@ TEST_CASE(
 }
 
 TEST_CASE("an exception of the tick, as after Ctrl-C, is that of the parallel work") {
-  const auto stop = [](std::size_t) { throw std::runtime_error("interrupted"); };
-  CHECK_THROWS_WITH(parallel_results(
-                        5, [](std::size_t k) { return k; }, stop),
-                    "interrupted");
+  std::atomic<bool> has_ticked = false;
+  const auto work = [&](std::size_t k) {
+    while (!has_ticked) std::this_thread::yield();
+    return k;
+  };
+  const auto stop = [&](std::size_t) {
+    has_ticked = true;
+    throw std::runtime_error("interrupted");
+  };
+  CHECK_THROWS_WITH(parallel_results(5, work, stop), "interrupted");
 }
 
 }  // namespace twinarm
