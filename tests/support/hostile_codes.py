@@ -25,7 +25,7 @@ UNREACHABLE = {
     **of_all("batch.duration batch.friction batch.joint batch.link batch.measured batch.mimic "
              "batch.still-joint batch.target batch.targets batch.unknown-joint",
              "map falls back to single runs and does not report it"),
-    **of_all("contact.geometry contact.group contact.pair coupling.gain coupling.joints coupling.link coupling.weld "
+    **of_all("contact.geometry contact.pair coupling.gain coupling.joints coupling.link coupling.weld "
              "device.figure hand.header loop.open loop.turned-over loop.twice mapping.body mapping.degrees-of-freedom "
              "mapping.joints mapping.number mapping.ranges model.axis-zero model.mimic-loop model.name-taken "
              "model.negative model.parent render.camera render.size robot.unknown-link shape.mass shape.numbers "
