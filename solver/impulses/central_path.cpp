@@ -195,7 +195,7 @@ int ImpulseSolver::follow_path(int start) {
   CentralPath path{*this, s0};
   double best = infinity;
   int steps = 0;
-  for (; s0 > 0 && steps < kMaxSteps; ++steps) {
+  for (; s0 > 0 && steps < kMaxSteps && has_budget(); ++steps) {
     shift_factor_ = std::max(0.0, 1 - path.s / s0);
     smoothing_ = path.s / s0;
     double residual = 0;

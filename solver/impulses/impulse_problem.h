@@ -69,6 +69,7 @@ class ImpulseProblem {
   // Of constraint c, side 0 or 1: rows x size(tree), row-major.
   double* J(const ImpulseConstraint& c, int side) { return J_.data() + c.J[side]; }
   const double* J(const ImpulseConstraint& c, int side) const { return J_.data() + c.J[side]; }
+  std::size_t jacobian_size() const { return J_.size(); }
   std::vector<ImpulseConstraint>& constraints() { return constraints_; }
   const std::vector<ImpulseConstraint>& constraints() const { return constraints_; }
   std::size_t block(int tree) const { return block_[tree]; }  // index of M(tree)

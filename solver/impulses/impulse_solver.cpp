@@ -14,8 +14,11 @@ constexpr double kFirstRho = 1e2, kLargeRho = 1e4, kDefaultMaxRho = 1e5, kMaxRho
 constexpr double kDivergence = 10;                    // residual relative to the best one
 constexpr int kMaxRestarts = 10, kRestartFactor = 4;  // restarts from the best; times max_newton
 constexpr std::size_t kSmallIsland = 8;               // constraints
-constexpr int kMaxPaths = 8;
+constexpr int kMaxPaths = 8, kLargeNewton = 60;
 constexpr int kMinDescents = 300, kMaxDescents = 5000;
+constexpr int kFirstSweeps = 200;
+constexpr double kAmple = 100,
+                 kInterior = 40;  // Newton steps in the budget: at first; after sweeps
 
 }  // namespace
 
@@ -61,9 +64,11 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem, bool full) {
     }
     if (open) {
       residual = solve_island(report, full);
+      if (!has_budget() && !(residual <= accepted)) residual = scale_impulses();
       // Event-driven steps, with good_guess < tolerance, require the tolerance.
       const double required = good_guess < tolerance ? tolerance : accepted;
-      if (island_->constraints.size() <= kSmallIsland || !(residual <= required))
+      const bool polish = residual > tolerance && is_exact() && has_budget();
+      if (island_->constraints.size() <= kSmallIsland || polish || !(residual <= required))
         residual = refine_solution(residual);
     }
     again = fails;
@@ -159,10 +164,9 @@ void ImpulseSolver::iterate(int max_steps, bool damped, double rho, ImpulseRepor
 double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
   ++report.solved;
   order();
-  set_envelope();
   best_ = std::numeric_limits<double>::infinity();
-  best_p_.resize(problem_->constraints().size()), iterate_p_.resize(best_p_.size());
-  guess_p_.resize(best_p_.size());
+  for (std::vector<Vec>* p : {&best_p_, &iterate_p_, &guess_p_, &swept_p_})
+    p->resize(problem_->constraints().size());
   const bool small = island_->constraints.size() <= kSmallIsland;
   for (const int i : island_->constraints) best_p_[i] = guess_p_[i] = constraint(i).p;
   if (small && has_warm_start()) {
@@ -170,38 +174,52 @@ double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
     if (best_ <= accepted) return best_;
     apply_impulses(guess_p_);
   }
-  iterate(small ? quick_newton_small : quick_newton, false, kFirstRho, report);
+  if (small || (is_exact() && has_budget(kAmple * newton_work_))) {
+    iterate(small ? quick_newton_small : quick_newton, false, kFirstRho, report);
+  } else {
+    const bool interior_follows = has_budget(kInterior * newton_work_);
+    run_sweeps(interior_follows ? kFirstSweeps : std::numeric_limits<int>::max(), report);
+    if (!interior_follows) return apply_impulses(best_p_);
+  }
   if (best_ <= accepted) return best_;
   report.interior = std::max(report.interior, interior_point_start());
   keep_best(apply_impulses());
-  if (best_ > accepted) iterate(max_newton, false, kFirstRho, report);
-  if (full)
+  if (best_ > accepted) iterate(small ? max_newton : kLargeNewton, false, kFirstRho, report);
+  if (full && best_ > accepted)
     try_other_starts(report);
   else
     keep_best(apply_impulses(guess_p_)), apply_impulses(best_p_);
   // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
   const auto max_descents = static_cast<int>(
       std::clamp<std::size_t>(30000 / island_->constraints.size(), kMinDescents, kMaxDescents));
-  for (int k = 0; k < (full ? max_descents : kMinDescents) && best_ > accepted; ++k)
+  for (int k = 0; k < (full ? max_descents : kMinDescents) && best_ > accepted && has_budget();
+       ++k) {
     keep_best(projected_gradient_step());
+    work_ += sweep_work_;
+  }
   return apply_impulses(best_p_);
 }
 
 void ImpulseSolver::try_other_starts(ImpulseReport& report) {
+  const auto goes_on = [&] { return best_ > accepted && has_budget(); };
+  const bool small = island_->constraints.size() <= kSmallIsland;
+  const auto from_path = [&](int start, int max_steps) {
+    report.path = std::max(report.path, follow_path(start));
+    keep_best(apply_impulses());
+    if (best_ > accepted) iterate(max_steps, start % 2 == 1, kFirstRho, report);
+  };
+  if (!small) from_path(0, kLargeNewton);
   // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
   // leads to jamming even if a small gap excludes it: also iterate from the guess.
   for (const double rho : {kFirstRho, kLargeRho}) {
-    if (best_ <= accepted) break;
+    if (!goes_on()) break;
     apply_impulses(guess_p_);
     iterate(max_newton, false, rho, report);
   }
-  for (int start = 0; start < kMaxPaths && best_ > accepted; ++start) {
-    report.path = std::max(report.path, follow_path(start));
-    keep_best(apply_impulses());
-    if (best_ > accepted) iterate(max_newton, start % 2 == 1, kFirstRho, report);
-  }
+  for (int start = small ? 0 : 1; start < kMaxPaths && goes_on(); ++start)
+    from_path(start, max_newton);
   // Restarts from the best p, damped and undamped in turn, while the residual decreases.
-  for (int k = 0; k < kMaxRestarts && best_ > accepted; ++k) {
+  for (int k = 0; k < kMaxRestarts && goes_on(); ++k) {
     const double before = best_;
     apply_impulses(best_p_);
     iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho, report);
@@ -227,7 +245,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
   update_multipliers();
   // For many bodies the bound is larger than their final errors and would end iterations too early.
   rounding_error_ = island_->constraints.size() <= kSmallIsland ? rounding_error() : 0;
-  while (newton < max_steps) {
+  while (newton < max_steps && has_budget()) {
     for (const int i : island_->constraints) multipliers_[i].rho = rho_ratio_ * rho0_[i];
     const InnerResult inner = solve_inner_problem(max_steps - newton);
     newton += std::max(1, inner.steps);

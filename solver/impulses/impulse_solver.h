@@ -12,15 +12,17 @@
 //
 // Per island (trees joined by constraints), in this order; the best p is kept:
 //   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
-//   newton_warm_start.cpp, of small islands with a guess
-//   augmented-Lagrangian iterations from the guess
-//   interior_point.cpp as start of further iterations
+//   small islands: newton_warm_start.cpp from a guess, then augmented-Lagrangian iterations
+//   larger ones: conjugate_sweeps.h, ended by newton_warm_start.cpp
+//   interior_point.cpp as start of further augmented-Lagrangian iterations
 //   central_path.cpp, path following from several starts
-// Small islands are refined to rounding by Newton steps. Deterministic.
+// Small islands are refined to rounding by Newton steps. At the end of the budget the best p is
+// used, scaled so that it does not increase the energy. Work is counted, not timed: deterministic.
 #pragma once
 
 #include <vector>
 
+#include "solver/impulses/conjugate_sweeps.h"
 #include "solver/impulses/impulse_law.h"
 #include "solver/impulses/impulse_problem.h"
 #include "solver/linear_algebra/envelope_lu.h"
@@ -32,6 +34,7 @@ namespace twinarm {
 struct ImpulseReport {
   int solved = 0;  // islands whose initial guess was not accepted
   // Maximum over the islands:
+  int sweeps = 0;       // of conjugate_sweeps.h
   int newton = 0;       // Newton steps
   int interior = 0;     // iterations of interior_point.cpp
   int path = 0;         // steps of central_path.cpp on one path
@@ -47,6 +50,7 @@ class ImpulseSolver {
   int quick_newton = 12;        // Newton steps before interior_point.cpp is tried,
   int quick_newton_small = 28;  // and of a small island
   int max_newton = 400;         // Newton steps of further iterations
+  double budget = 1e10;         // floating-point operations for one island, about
 
   // Writes v of the problem, and p and u of its constraints. full: else, where one interior-point
   // start does not lead to a solution, the residual is only reduced.
@@ -78,6 +82,10 @@ class ImpulseSolver {
   double apply_impulses(const std::vector<Vec>& p);
   double solve_island(ImpulseReport& report, bool full);
   void try_other_starts(ImpulseReport& report);
+  bool has_budget(double more = 0) const { return work_ + more <= budget; }
+  bool is_exact() const;
+  void run_sweeps(int max_sweeps, ImpulseReport& report);
+  double scale_impulses();
   void iterate(int max_steps, bool damped, double rho, ImpulseReport& report);
   void keep_best(double residual);
   void run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report);
@@ -88,6 +96,8 @@ class ImpulseSolver {
   double semismooth_newton_step(double residual);
   double refine_solution(double residual);
   void order();
+  void count_work();
+  void find_rows();
   void set_envelope();
   struct Gradient {
     double largest = 0, squared = 0;  // as velocities [m/s]; squared in the norm of diag(M)^-1
@@ -139,8 +149,8 @@ class ImpulseSolver {
     Mat D;
   };
   std::vector<CouplingBlock> coupling_blocks_;
-  std::vector<Vec> u_, du_, p_, guess_p_, best_p_, iterate_p_;  // by constraint
-  std::vector<double> f_, dv_, delta_, convex_v_;               // by velocity
+  std::vector<Vec> u_, du_, p_, guess_p_, swept_p_, best_p_, iterate_p_;  // by constraint
+  std::vector<double> f_, dv_, delta_, convex_v_;                         // by velocity
   std::vector<Island> islands_;
   std::size_t island_count_ = 0;
   std::vector<int> root_, island_of_;  // by tree
@@ -149,10 +159,14 @@ class ImpulseSolver {
   std::vector<std::size_t> row_;       // by tree: first row in matrix_
   std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;
   std::vector<double> rhs_, DJ_;
+  // Floating-point operations, about: done in the current island, of a Newton step, of a sweep.
+  double work_ = 0, newton_work_ = 0, sweep_work_ = 0;
   double rho_ratio_ = 0;       // rho / rho0 of the current island
   double best_ = 0;            // residual of best_p_ in this island
   double rounding_error_ = 0;  // for rho = rho0 [m/s]
   EnvelopeLu matrix_;
+  bool has_envelope_ = false;  // matrix_ has that of the current island
+  ConjugateSweeps sweeps_;
   // interior_point.cpp, by constraint
   std::vector<int> cones_;
   double shift_factor_ = 1;  // homotopy: factor of the de Saxce shift mu |u_t|

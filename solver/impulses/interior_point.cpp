@@ -29,7 +29,7 @@ int ImpulseSolver::interior_point_start() {
   shift_factor_ = 1, smoothing_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
-  for (; iterations < kMaxIterations && stuck <= kMaxStuck; ++iterations) {
+  for (; iterations < kMaxIterations && stuck <= kMaxStuck && has_budget(); ++iterations) {
     double residual = 0;
     const double mean = ipm_evaluate(residual);
     if (!(mean > 0) || !(residual < 1e100)) break;

@@ -92,9 +92,11 @@ void ImpulseSolver::order() {
   breadth_first(island_->trees.front());
   breadth_first(order_.back());  // from a peripheral tree
   std::reverse(order_.begin(), order_.end());
+  find_rows();
+  count_work();
 }
 
-void ImpulseSolver::set_envelope() {
+void ImpulseSolver::find_rows() {
   row_.resize(static_cast<std::size_t>(problem_->tree_count()));
   lowest_.resize(row_.size());
   std::size_t row = 0;
@@ -109,10 +111,15 @@ void ImpulseSolver::set_envelope() {
     const int later = row_[a] > row_[b] ? a : b, earlier = later == a ? b : a;
     if (row_[earlier] < row_[lowest_[later]]) lowest_[later] = earlier;
   }
+  rhs_.resize(row);
+  has_envelope_ = false;
+}
+
+void ImpulseSolver::set_envelope() {
   matrix_.clear();
   for (const int t : order_)
     for (int k = 0; k < problem_->size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
-  rhs_.resize(row);
+  has_envelope_ = true;
 }
 
 }  // namespace twinarm

@@ -151,6 +151,8 @@ void ImpulseSolver::find_direction(bool symmetric) {
 
 // M + J^T D J; if symmetric, the lower triangle only.
 void ImpulseSolver::assemble(bool symmetric) {
+  work_ += symmetric ? 0.5 * newton_work_ : newton_work_;
+  if (!has_envelope_) set_envelope();
   matrix_.set_zero();
   for (const int t : island_->trees) {
     const std::size_t at = row_[t];
