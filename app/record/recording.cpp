@@ -50,6 +50,7 @@ template <class Run, class F>
 void for_each_new_option(Run& run, const F& f) {
   f("density", run.robot.missing.density);
   f("min_mass", run.robot.missing.min_mass);
+  f("budget", run.budget);
 }
 
 void visit_run(StateArchive& memory, RunSettings& run) {

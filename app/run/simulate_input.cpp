@@ -164,6 +164,8 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     const auto mode = choose("--contact", options.contact, kContactModes, "possible", faults);
     if (mode && description) description->contact = static_cast<ContactMode>(*mode);
   }
+  if (options.budget && description && description->budget == 0)
+    description->budget = *options.budget;
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
   if (!options.robot.gravity.empty())

@@ -25,6 +25,7 @@ struct RunSettings {
   std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
   std::string integrator;                // as in solver/integration/integrator.h; may be empty
   std::string contact;                   // "rigid" ..; may be empty
+  std::optional<double> budget;          // of the contact solver, unless the scene sets one [1/s]
 };
 
 struct SimulateOptions : RunSettings {

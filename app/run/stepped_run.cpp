@@ -112,8 +112,13 @@ SimulateResult SteppedRun::finish() {
   if (!result_.post_mortem && result_.steps < last_step_)  // samples at the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
   if (unsolved_ > 0)
-    warn(fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
-                     unsolved_, result_.steps));
+    warn(residual_ > 0
+             ? fmt::format("in {} of {} steps the impulses of contacts and limits miss their laws "
+                           "by more than the accuracy, by {} m/s at most; give a larger budget, "
+                           "or accept another accuracy (docs/reference/scene_file.md)",
+                           unsolved_, result_.steps, short_number_text(residual_))
+             : fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
+                           unsolved_, result_.steps));
   if (unlocated_ > 0)
     warn(fmt::format(
         "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
@@ -222,6 +227,8 @@ bool SteppedRun::one_step(double t, double h_max) {
 // Accounts for the step from t in the energy and momentum balances.
 void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
   unsolved_ += report.converged ? 0 : 1;
+  if (!report.converged && sim_.has_constrained_steps())
+    residual_ = std::max(residual_, sim_.constraints().report().step.residual);
   unlocated_ += report.located ? 0 : 1;
   inner_.clear();
   for (const double part : energy_balance_->inner_nodes())

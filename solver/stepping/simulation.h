@@ -46,6 +46,10 @@ class Simulation {
   // std::invalid_argument if a source is implicit in the step or has no events(), or if the
   // integrator is not semi-implicit (also set_integrator() from then on).
   void locate_events();
+  // Of the impulses of contacts and limits: ConstraintSystem::set_effort().
+  void set_impulse_effort(double accuracy, double budget) {
+    constrained_.system().set_effort(accuracy, budget);
+  }
   // Replaces the loop closures. Throws InputError with all errors; loops must be closed at the
   // current state (close_loops()). Velocities are projected, as in an impact. From then on
   // set_state() and prescribe() throw if they open a loop.

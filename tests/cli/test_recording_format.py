@@ -60,7 +60,7 @@ class Bytes(RecordingCommand):
         def without(table, key):
             return {name: value for name, value in table.items() if name != key}
         whole, most = json.dumps(header), 32 << 20
-        earlier = json.dumps(header | {"run": without(without(run_, "density"), "min_mass")})
+        earlier = json.dumps(header | {"run": without(without(without(run_, "density"), "min_mass"), "budget")})
         for text in (nested(8), whole.ljust(most), earlier):
             with_text(text)
             self.assertEqual(self.exported(file)["format"], 4)
@@ -69,7 +69,7 @@ class Bytes(RecordingCommand):
                    "frames of another layout": json.dumps(header | {"frame": [*header["frame"], "heat float64 K"]}),
                    **{f"no {key}": json.dumps(without(header, key)) for key in header},
                    **{f"no run.{key}": json.dumps(header | {"run": without(run_, key)}) for key in run_
-                      if key not in ("density", "min_mass")},  # recordings made before lack these
+                      if key not in ("density", "min_mass", "budget")},  # recordings made before lack these
                    **{f"{key} of another type": json.dumps(header | {key: {}}) for key in header}}
         for name, text in refused.items():
             with self.subTest(name):

@@ -99,6 +99,13 @@ LabParameter contact_parameter(const SceneDescription& scene) {
   return parameter;
 }
 
+LabParameter budget_parameter(const SceneDescription& scene) {
+  return slider("budget", {"contact budget", 1e8, 1e13,
+                           "Floating-point operations of the contact solver per simulated second; "
+                           "1e9 is real time for heaps, with small errors."},
+                scene.budget > 0 ? scene.budget : 1e13, "1/s");
+}
+
 }  // namespace
 
 std::string LabParameter::value() const {
@@ -119,7 +126,10 @@ std::vector<LabParameter> parameters_of(const SimulatePlan& plan) {
   std::vector<LabParameter> parameters{step_parameter(plan), integrator_parameter(plan)};
   const SceneModel* scene = plan.input.scene.get();
   if (scene) parameters.push_back(gravity_parameter(scene->description.gravity));
-  if (scene && scene->may_touch()) parameters.push_back(contact_parameter(scene->description));
+  if (scene && scene->may_touch()) {
+    parameters.push_back(contact_parameter(scene->description));
+    parameters.push_back(budget_parameter(scene->description));
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i)
     parameters[i].group = i < 2 ? "time" : "world";
   if (!scene) return parameters;

@@ -10,6 +10,8 @@
 namespace twinarm {
 namespace {
 
+constexpr double kRealTimeBudget = 1e9;  // about a third of a processor [1/s]
+
 // A change of what is an option of `simulate`, not a key of the scene's items.
 bool apply_option(const Change& change, RunSettings& options, DiagnosticList& faults) {
   const auto number = [&](std::optional<double>& value) {
@@ -74,7 +76,8 @@ void put_last(Value& scene, const std::string& key, Value value) {
 }  // namespace
 
 LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
-  const SimulateOptions options = without_outputs(given);
+  SimulateOptions options = without_outputs(given);
+  options.budget = kRealTimeBudget;
   files_ = std::make_shared<const UnpackedRun>(header_of(options, prepare_simulation(options), {}));
   if (!roots_) return;
   roots_->push_back(files_->folder());

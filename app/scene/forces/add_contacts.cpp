@@ -99,6 +99,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     loops.push_back({c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset});
   if (!loops.empty()) simulation.set_loops(std::move(loops));
   const bool may_touch = scene.may_touch();
+  simulation.set_impulse_effort(scene.description.accuracy, scene.description.budget);
   if (may_touch) {
     contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
                                        ? ContactResponse::compliant

@@ -57,6 +57,8 @@ void SceneReader::read(const Value& root) {
   scene.gravity = table.vector("gravity").value_or(scene.gravity);
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
+  scene.accuracy = table.positive("accuracy").value_or(scene.accuracy);
+  scene.budget = table.positive("budget").value_or(scene.budget);
   if (const auto law = table.choice("contact", kContactModes))
     scene.contact = static_cast<ContactMode>(*law);
   if (const auto chosen = table.choice("integrator", names_of(all_integrators)))

@@ -152,6 +152,8 @@ struct SceneDescription {
   Vector3 gravity{0, 0, -9.81};
   double step = 0.001;  // [s]
   ContactMode contact = ContactMode::rigid;
+  double accuracy = 5e-9;  // of contact impulses: residual of the laws [m/s]
+  double budget = 0;       // of contact impulses: operations per simulated second [1/s]; 0: none
   std::optional<Integrator> integrator;
   std::optional<double> duration;  // [s]; the command line overrides it
   std::vector<RobotInScene> robots;

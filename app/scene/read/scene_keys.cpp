@@ -81,9 +81,11 @@ bool is_torsional_table(const Value& table) {
 }
 
 // Keys without a row.
-constexpr std::array<std::pair<const char*, const char*>, 15> kOtherUnits{
+constexpr std::array<std::pair<const char*, const char*>, 17> kOtherUnits{
     {{"step", "s"},
      {"duration", "s"},
+     {"accuracy", "m/s"},
+     {"budget", "1/s"},
      {"gravity", "m/s²"},
      {"mass", "kg"},
      {"density", "kg/m³"},
