@@ -67,8 +67,9 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem, bool full) {
       if (!has_budget() && !(residual <= accepted)) residual = scale_impulses();
       // Event-driven steps, with good_guess < tolerance, require the tolerance.
       const double required = good_guess < tolerance ? tolerance : accepted;
-      const bool polish = residual > tolerance && is_exact() && has_budget();
-      if (island_->constraints.size() <= kSmallIsland || polish || !(residual <= required))
+      const bool affords_newton = residual > tolerance && has_budget(3 * newton_work_);
+      if (island_->constraints.size() <= kSmallIsland ||
+          (affords_newton && (is_exact() || !(residual <= required))))
         residual = refine_solution(residual);
     }
     again = fails;
