@@ -20,7 +20,8 @@ void ImpulseSolver::count_work() {
   }
   for (const int i : island_->constraints) {
     double n = 0;  // velocities
-    for (const int t : constraint(i).tree) n += t == ImpulseConstraint::no_tree ? 0 : problem_->size(t);
+    for (const int t : constraint(i).tree)
+      n += t == ImpulseConstraint::no_tree ? 0 : problem_->size(t);
     sweep_work_ += 100 + 4 * constraint(i).rows * n;
     newton_work_ += 2 * constraint(i).rows * n * (n + 3);
   }
@@ -53,12 +54,12 @@ void ImpulseSolver::run_sweeps(int max_sweeps, ImpulseReport& report) {
 
 // At the end of the budget: scales the impulses so that they do not increase the energy,
 //   p . J v0 + 1/2 p . J M^-1 J^T p <= 0;
-// the exact solution does not, unless a support moves (b < 0). Returns the residual.
+// the exact solution does not, unless a support moves. Returns the residual.
 double ImpulseSolver::scale_impulses() {
   double linear = 0, quadratic = 0;
   for (const int i : island_->constraints) {
     const ImpulseConstraint& c = constraint(i);
-    if (*std::min_element(c.b.begin(), c.b.end()) < 0) return apply_impulses();
+    if (c.b[0] < 0 || c.b[1] != 0 || c.b[2] != 0) return apply_impulses();
     for (int r = 0; r < c.rows; ++r) quadratic += c.p[r] * (c.u[r] - c.b[r]);
     Vec u0;
     problem_->velocity(c, problem_->v0(0), u0);

@@ -100,9 +100,10 @@ LabParameter contact_parameter(const SceneDescription& scene) {
 }
 
 LabParameter budget_parameter(const SceneDescription& scene) {
-  return slider("budget", {"contact budget", 1e8, 1e13,
-                           "Floating-point operations of the contact solver per simulated second; "
-                           "1e9 is real time for heaps, with small errors."},
+  return slider("budget",
+                {"contact budget", 1e8, 1e13,
+                 "Floating-point operations of the contact solver per simulated second; "
+                 "1e9 is real time for heaps, with small errors."},
                 scene.budget > 0 ? scene.budget : 1e13, "1/s");
 }
 
