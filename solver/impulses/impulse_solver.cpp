@@ -16,7 +16,8 @@ constexpr int kMaxRestarts = 10, kRestartFactor = 4;  // restarts from the best;
 constexpr std::size_t kSmallIsland = 8;               // constraints
 constexpr int kMaxPaths = 8, kLargeNewton = 60;
 constexpr int kMinDescents = 300, kMaxDescents = 5000;
-constexpr int kFirstSweeps = 200;
+constexpr double kFirstSweeps = 200,
+                 kSweepsPerNewton = 20;  // at least; work of so many Newton steps
 constexpr double kAmple = 100,
                  kInterior = 40;  // Newton steps in the budget: at first; after sweeps
 
@@ -179,7 +180,8 @@ double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
     iterate(small ? quick_newton_small : quick_newton, false, kFirstRho, report);
   } else {
     const bool interior_follows = has_budget(kInterior * newton_work_);
-    run_sweeps(interior_follows ? kFirstSweeps : std::numeric_limits<int>::max(), report);
+    const double first = std::max(kFirstSweeps, kSweepsPerNewton * newton_work_ / sweep_work_);
+    run_sweeps(interior_follows ? first : std::numeric_limits<double>::infinity(), report);
     if (!interior_follows) return apply_impulses(best_p_);
   }
   if (best_ <= accepted) return best_;

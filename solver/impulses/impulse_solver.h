@@ -84,7 +84,7 @@ class ImpulseSolver {
   void try_other_starts(ImpulseReport& report);
   bool has_budget(double more = 0) const { return work_ + more <= budget; }
   bool is_exact() const;
-  void run_sweeps(int max_sweeps, ImpulseReport& report);
+  void run_sweeps(double max_sweeps, ImpulseReport& report);
   double scale_impulses();
   void iterate(int max_steps, bool damped, double rho, ImpulseReport& report);
   void keep_best(double residual);

@@ -32,7 +32,7 @@ bool ImpulseSolver::is_exact() const {
 }
 
 // From p of the constraints.
-void ImpulseSolver::run_sweeps(int max_sweeps, ImpulseReport& report) {
+void ImpulseSolver::run_sweeps(double max_sweeps, ImpulseReport& report) {
   sweeps_.start(*problem_, {island_->trees, island_->constraints, factors_, rho0_});
   bool try_newton = is_exact();
   int sweeps = 0;

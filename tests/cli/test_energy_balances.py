@@ -11,7 +11,7 @@ from robot_command import COM, HINGE, HINGE_INERTIA, INERTIA, MASS, joint, link,
 
 SCENES = [scene for scene in sorted(program.SCENES.glob("*.toml")) if not has_motors(scene)]
 # Durations [s] that include contact.
-DURATION = {"pyramid": 0.05, "box_stack": 0.1, "bouncing_ball": 0.6, "cradle": 0.4,
+DURATION = {"pyramid": 0.05, "box_stack": 0.1, "heap": 0.2, "bouncing_ball": 0.6, "cradle": 0.4,
             "rattleback": 0.1, "spinning_coin": 0.05, "four_bar": 0.4, "slider_crank": 0.4,
             "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3}
 

@@ -74,7 +74,8 @@ TEST_CASE("sweeps converge to the laws of a contact with rolling or torsional fr
   }
 }
 
-// Hunt-Crossley and bristles, written out: N = h k d (1 + c s), T = -h (k_t a' + b_t u_t) up to mu N.
+// Hunt-Crossley and bristles, written out: N = h k d (1 + c s), T = -h (k_t a' + b_t u_t) up to mu
+// N.
 TEST_CASE("sweeps converge to the forces of compliant contacts") {
   for (unsigned seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
