@@ -12,10 +12,8 @@ constexpr int no_tree = ImpulseConstraint::no_tree;
 // Penalty rho, relative to rho0.
 constexpr double kFirstRho = 1e2, kLargeRho = 1e4, kDefaultMaxRho = 1e5, kMaxRho = 1e7, kMinRho = 1;
 constexpr double kDivergence = 10;                    // residual relative to the best one
-constexpr int kMaxRestarts = 10, kRestartFactor = 4;  // restarts from the best; times max_newton
 constexpr std::size_t kSmallIsland = 8;               // constraints
 constexpr int kMaxPaths = 8, kLargeNewton = 60;
-constexpr int kMinDescents = 300, kMaxDescents = 5000;
 constexpr double kFirstSweeps = 200,
                  kSweepsPerNewton = 20;  // at least; work of so many Newton steps
 constexpr double kAmple = 100,
@@ -155,9 +153,9 @@ void ImpulseSolver::keep_best(double residual) {
   for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
 }
 
-void ImpulseSolver::iterate(int max_steps, bool damped, double rho, ImpulseReport& report) {
+void ImpulseSolver::iterate(int max_steps, double rho, ImpulseReport& report) {
   rho_ratio_ = rho;
-  run_augmented_lagrangian(max_steps, damped, report);
+  run_augmented_lagrangian(max_steps, report);
   keep_best(apply_impulses());
 }
 
@@ -177,7 +175,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
     apply_impulses(guess_p_);
   }
   if (small || (is_exact() && has_budget(kAmple * newton_work_))) {
-    iterate(small ? quick_newton_small : quick_newton, false, kFirstRho, report);
+    iterate(small ? quick_newton_small : quick_newton, kFirstRho, report);
   } else {
     const bool interior_follows = has_budget(kInterior * newton_work_);
     const double first = std::max(kFirstSweeps, kSweepsPerNewton * newton_work_ / sweep_work_);
@@ -187,18 +185,11 @@ double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
   if (best_ <= accepted) return best_;
   report.interior = std::max(report.interior, interior_point_start());
   keep_best(apply_impulses());
-  if (best_ > accepted) iterate(small ? max_newton : kLargeNewton, false, kFirstRho, report);
-  if (full && best_ > accepted)
-    try_other_starts(report);
-  else
+  if (best_ > accepted) iterate(small ? max_newton : kLargeNewton, kFirstRho, report);
+  if (full && best_ > accepted) try_other_starts(report);
+  if (best_ > accepted) {  // no solution found, or none there (Painleve): a small residual
     keep_best(apply_impulses(guess_p_)), apply_impulses(best_p_);
-  // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
-  const auto max_descents = static_cast<int>(
-      std::clamp<std::size_t>(30000 / island_->constraints.size(), kMinDescents, kMaxDescents));
-  for (int k = 0; k < (full ? max_descents : kMinDescents) && best_ > accepted && has_budget();
-       ++k) {
-    keep_best(projected_gradient_step());
-    work_ += sweep_work_;
+    run_sweeps(kFirstSweeps, report);
   }
   return apply_impulses(best_p_);
 }
@@ -209,7 +200,7 @@ void ImpulseSolver::try_other_starts(ImpulseReport& report) {
   const auto from_path = [&](int start, int max_steps) {
     report.path = std::max(report.path, follow_path(start));
     keep_best(apply_impulses());
-    if (best_ > accepted) iterate(max_steps, start % 2 == 1, kFirstRho, report);
+    if (best_ > accepted) iterate(max_steps, kFirstRho, report);
   };
   if (!small) from_path(0, kLargeNewton);
   // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
@@ -217,17 +208,10 @@ void ImpulseSolver::try_other_starts(ImpulseReport& report) {
   for (const double rho : {kFirstRho, kLargeRho}) {
     if (!goes_on()) break;
     apply_impulses(guess_p_);
-    iterate(max_newton, false, rho, report);
+    iterate(max_newton, rho, report);
   }
   for (int start = small ? 0 : 1; start < kMaxPaths && goes_on(); ++start)
     from_path(start, max_newton);
-  // Restarts from the best p, damped and undamped in turn, while the residual decreases.
-  for (int k = 0; k < kMaxRestarts && goes_on(); ++k) {
-    const double before = best_;
-    apply_impulses(best_p_);
-    iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho, report);
-    if (k % 2 == 1 && best_ > 0.5 * before) break;
-  }
 }
 
 void ImpulseSolver::update_multipliers() {
@@ -238,9 +222,8 @@ void ImpulseSolver::update_multipliers() {
 }
 
 // From p and u of the constraints, v and rho_ratio_. If the residual grows, restart from the best
-// iterate with a smaller rho, which keeps the inner solutions closer to the start. `damped`: also
-// reduces rho after Newton steps with differentiated shift diverge (Levenberg-Marquardt).
-void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report) {
+// iterate with a smaller rho, which keeps the inner solutions closer to the start.
+void ImpulseSolver::run_augmented_lagrangian(int max_steps, ImpulseReport& report) {
   int newton = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
   double max_rho = kDefaultMaxRho;
@@ -273,9 +256,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
     }
     // Slow convergence of the multipliers with a constant active set requires a larger rho.
     const bool slow = inner.steps <= 2 && residual > 0.3 * last;
-    if (damped && inner.diverged)
-      rho_ratio_ = std::max(kMinRho, 0.1 * rho_ratio_);
-    else if (rho_ratio_ < max_rho || (slow && rho_ratio_ < kMaxRho))
+    if (rho_ratio_ < max_rho || (slow && rho_ratio_ < kMaxRho))
       rho_ratio_ *= 10;
     last = residual;
   }

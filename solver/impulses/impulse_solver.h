@@ -86,9 +86,9 @@ class ImpulseSolver {
   bool is_exact() const;
   void run_sweeps(double max_sweeps, ImpulseReport& report);
   double scale_impulses();
-  void iterate(int max_steps, bool damped, double rho, ImpulseReport& report);
+  void iterate(int max_steps, double rho, ImpulseReport& report);
   void keep_best(double residual);
-  void run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report);
+  void run_augmented_lagrangian(int max_steps, ImpulseReport& report);
   void update_multipliers();
   void zero_forces();
   bool has_warm_start() const;
@@ -108,7 +108,6 @@ class ImpulseSolver {
   struct InnerResult {
     int steps = 0;
     double error = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
-    bool diverged = false;  // Newton steps with differentiated shift
   };
   InnerResult solve_inner_problem(int max_steps);
   double rounding_error();

@@ -44,7 +44,6 @@ ImpulseSolver::InnerResult ImpulseSolver::solve_inner_problem(int max_steps) {
     if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
       for_each_velocity([&](std::size_t k, std::size_t) { problem_->v(0)[k] = convex_v_[k]; });
       result.error = gradient(DeSaxceShift::frozen).error();
-      result.diverged = true;
       break;
     }
     now = then;
