@@ -114,7 +114,7 @@ struct ImpulseSolver::CentralPath {
     take(of.correction_, 0);
     const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
     for_each_cone([&](int i) {
-      of.right_[i] = {s * of.terms_[i].weight, 0, 0};
+      of.right_[i] = {s, 0, 0};
       of.d_z_[i] = {};
       if (!is_contact(of.constraint(i))) return;
       for (int k = i; k >= 0; k = of.next_disc_[k]) {

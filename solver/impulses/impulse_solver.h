@@ -172,7 +172,6 @@ class ImpulseSolver {
   double smoothing_ = 0;     // homotopy: smoothing of the kink of |u_t| at 0, relative to `kink`
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
   struct ConeTerms {    // ipm_equations.h
-    double weight = 1;  // x o z = s weight e
     double arm = 0, kink = 0, slip = 0, A = 0, C = 0, n = 0;
     std::array<double, 2> h{}, l{};
     std::array<double, 3> S{};  // entries aa, ab, bb

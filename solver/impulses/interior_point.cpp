@@ -63,7 +63,7 @@ double ImpulseSolver::ipm_direction(double s, bool correct) {
   for (const int i : cones_) {
     const ConeScaling& scaling = scaling_[i];
     const Vec square = jordan(scaling.t, scaling.t);
-    right_[i] = {s * terms_[i].weight - square[0], -square[1], -square[2]};
+    right_[i] = {s - square[0], -square[1], -square[2]};
     if (!correct) continue;
     const Vec Wdz = times(scaling.W, dz_[i]);
     const Vec Wdx{-scaling.t[0] - Wdz[0], -scaling.t[1] - Wdz[1], -scaling.t[2] - Wdz[2]};

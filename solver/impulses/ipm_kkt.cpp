@@ -7,7 +7,6 @@
 // iteration.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "solver/impulses/impulse_solver.h"
 #include "solver/impulses/ipm_equations.h"
@@ -16,7 +15,7 @@ namespace twinarm {
 namespace {
 
 constexpr double kNoConeRho = 1e4;               // rho / rho0 of constraints without a cone
-constexpr double kStartScales[] = {1, 0.1, 10};  // relative to the velocity scale
+constexpr double kStartScales[] = {1, 0.1, 10, 0.01, 100, 0.3, 3, 0.03};  // of x_0 z_0
 
 double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return a[0] * b[0] + a[1] * b[1];
@@ -24,16 +23,6 @@ double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
 std::array<double, 2> tangential_part(const ImpulseConstraint& c, const Vec& u) {
   const int first = first_tangential(c), count = tangential_rows(c);
   return {count > 0 ? u[first] : 0, count > 1 ? u[first + 1] : 0};
-}
-
-// Reproducible pseudorandom weight in [1/3, 3] (splitmix64).
-double weight_of(int start, int i) {
-  std::uint64_t bits = static_cast<std::uint64_t>(start) * 0x9e3779b97f4a7c15u +
-                       static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9u;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-  bits ^= bits >> 31;
-  return std::pow(9.0, static_cast<double>(bits >> 11) * 0x1p-53 - 0.5);
 }
 
 // D: S in the tangential rows, else 0.
@@ -58,8 +47,7 @@ bool ImpulseSolver::has_cone(const ImpulseConstraint& c) const {
 }
 
 // x and z on the axes of their cones, scaled by impulses and velocities of the problem; later
-// starts use other scales and a weight of x_0 z_0 per cone. Returns x_0 z_0 of weight 1; 0 without
-// cones.
+// starts use other scales. Returns x_0 z_0; 0 without cones.
 double ImpulseSolver::ipm_initialize(int start) {
   const std::size_t count = problem_->constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
@@ -84,7 +72,7 @@ double ImpulseSolver::ipm_initialize(int start) {
       impulse = std::max(impulse, rho0_[i] * std::abs(c.u[r] + c.b[r]));
     }
   }
-  const double s0 = impulse * speed * kStartScales[start % 3];
+  const double s0 = impulse * speed * kStartScales[start];
   for (const int i : cones_) {
     const ImpulseConstraint& c = constraint(i);
     terms_[i].arm = arm_of(c);
@@ -92,8 +80,7 @@ double ImpulseSolver::ipm_initialize(int start) {
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
     else
       x_[i][0] = c.law == ConstraintType::box ? 0.5 * (c.high - c.low) : impulse;
-    terms_[i].weight = start == 0 ? 1 : weight_of(start, i);
-    z_[i][0] = terms_[i].weight * s0 / x_[i][0];
+    z_[i][0] = s0 / x_[i][0];
     terms_[i].kink = z_[i][0];
   }
   return cones_.empty() ? 0 : s0;
