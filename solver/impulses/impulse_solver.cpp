@@ -11,8 +11,9 @@ namespace {
 constexpr int no_tree = ImpulseConstraint::no_tree;
 // Penalty rho, relative to rho0.
 constexpr double kFirstRho = 1e2, kLargeRho = 1e4, kDefaultMaxRho = 1e5, kMaxRho = 1e7, kMinRho = 1;
-constexpr double kDivergence = 10;                    // residual relative to the best one
-constexpr std::size_t kSmallIsland = 8;               // constraints
+constexpr double kDivergence = 10;       // residual relative to the best one
+constexpr std::size_t kSmallIsland = 8;  // constraints
+constexpr int kRestartFactor = 4;        // times max_newton
 constexpr int kMaxPaths = 8, kLargeNewton = 60;
 constexpr double kFirstSweeps = 200,
                  kSweepsPerNewton = 20;  // at least; work of so many Newton steps
@@ -212,6 +213,12 @@ void ImpulseSolver::try_other_starts(ImpulseReport& report) {
   }
   for (int start = small ? 0 : 1; start < kMaxPaths && goes_on(); ++start)
     from_path(start, max_newton);
+  // Restarts from the best p while the residual decreases.
+  for (double before = 0; goes_on() && (before == 0 || best_ < 0.5 * before);) {
+    before = best_;
+    apply_impulses(best_p_);
+    iterate(kRestartFactor * max_newton, kFirstRho, report);
+  }
 }
 
 void ImpulseSolver::update_multipliers() {
@@ -256,8 +263,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, ImpulseReport& repor
     }
     // Slow convergence of the multipliers with a constant active set requires a larger rho.
     const bool slow = inner.steps <= 2 && residual > 0.3 * last;
-    if (rho_ratio_ < max_rho || (slow && rho_ratio_ < kMaxRho))
-      rho_ratio_ *= 10;
+    if (rho_ratio_ < max_rho || (slow && rho_ratio_ < kMaxRho)) rho_ratio_ *= 10;
     last = residual;
   }
   if (!(last <= best)) apply_impulses(iterate_p_);

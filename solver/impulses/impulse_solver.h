@@ -107,7 +107,7 @@ class ImpulseSolver {
   };
   struct InnerResult {
     int steps = 0;
-    double error = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
+    double error = 0;  // of M (v - v0) = J^T p, as a velocity [m/s]
   };
   InnerResult solve_inner_problem(int max_steps);
   double rounding_error();
@@ -171,7 +171,7 @@ class ImpulseSolver {
   double shift_factor_ = 1;  // homotopy: factor of the de Saxce shift mu |u_t|
   double smoothing_ = 0;     // homotopy: smoothing of the kink of |u_t| at 0, relative to `kink`
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
-  struct ConeTerms {    // ipm_equations.h
+  struct ConeTerms {  // ipm_equations.h
     double arm = 0, kink = 0, slip = 0, A = 0, C = 0, n = 0;
     std::array<double, 2> h{}, l{};
     std::array<double, 3> S{};  // entries aa, ab, bb

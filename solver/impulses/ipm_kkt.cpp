@@ -14,7 +14,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kNoConeRho = 1e4;               // rho / rho0 of constraints without a cone
+constexpr double kNoConeRho = 1e4;  // rho / rho0 of constraints without a cone
 constexpr double kStartScales[] = {1, 0.1, 10, 0.01, 100, 0.3, 3, 0.03};  // of x_0 z_0
 
 double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
