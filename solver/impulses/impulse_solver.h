@@ -12,8 +12,9 @@
 //
 // Per island (trees joined by constraints), in this order; the best p is kept:
 //   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
-//   small islands: newton_warm_start.cpp from a guess, then augmented-Lagrangian iterations
-//   larger ones: conjugate_sweeps.h, ended by newton_warm_start.cpp
+//   small islands: newton_warm_start.cpp from a guess
+//   augmented-Lagrangian iterations; instead, in larger islands with a coarse accuracy or a small
+//   budget: conjugate_sweeps.h
 //   interior_point.cpp as start of further augmented-Lagrangian iterations
 //   central_path.cpp, path following from several starts
 // Small islands are refined to rounding by Newton steps. At the end of the budget the best p is
