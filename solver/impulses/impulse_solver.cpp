@@ -15,10 +15,10 @@ constexpr double kDivergence = 10;       // residual relative to the best one
 constexpr std::size_t kSmallIsland = 8;  // constraints
 constexpr int kRestartFactor = 4;        // times max_newton
 constexpr int kMaxPaths = 8, kLargeNewton = 60;
-constexpr double kFirstSweeps = 200,
-                 kSweepsPerNewton = 20;  // at least; work of so many Newton steps
-constexpr double kAmple = 100,
-                 kInterior = 40;  // Newton steps in the budget: at first; after sweeps
+// Sweeps before interior_point.cpp: so many, or the work of so many Newton steps.
+constexpr double kFirstSweeps = 200, kSweepsPerNewton = 20;
+// Newton steps that the budget must allow: to begin with them; for interior_point.cpp after sweeps.
+constexpr double kAmple = 100, kInterior = 40;
 
 }  // namespace
 
