@@ -1,4 +1,4 @@
-// Last stage of impulse_solver.h: homotopy along the central path of interior_point.cpp, from a
+// Last stage of island_solver.h: homotopy along the central path of interior_point.cpp, from a
 // convex problem with a unique solution to the exact law, with path following around turning
 // points.
 //
@@ -19,7 +19,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/impulses/impulse_solver.h"
+#include "solver/impulses/interior_phase.h"
 #include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm {
@@ -39,8 +39,8 @@ ConeVec divided(const ConeScaling& s, const ConeVec& x) {
 
 }  // namespace
 
-struct ImpulseSolver::CentralPath {
-  ImpulseSolver& of;
+struct InteriorPhase::CentralPath {
+  InteriorPhase& of;
   double s0, s = s0, length = 0.3;
   double size = infinity;  // of the last correction
   int corrections = 0;     // since the last predictor
@@ -80,7 +80,7 @@ struct ImpulseSolver::CentralPath {
         a.z[i][r] = f * a.z[i][r] + g * b.z[i][r];
       }
     });
-    of.for_each_velocity([&](std::size_t k, std::size_t) { a.v[k] = f * a.v[k] + g * b.v[k]; });
+    of.island_.for_each_velocity([&](std::size_t k) { a.v[k] = f * a.v[k] + g * b.v[k]; });
     a.s = f * a.s + g * b.s;
   }
   // Maximum step, at most 1, with x and z in their cones and s positive.
@@ -97,34 +97,33 @@ struct ImpulseSolver::CentralPath {
       for (std::size_t r = 0; r < 3; ++r)
         of.x_[i][r] += step * a.x[i][r], of.z_[i][r] += step * a.z[i][r];
     });
-    of.for_each_velocity(
-        [&](std::size_t k, std::size_t) { of.problem_->v(0)[k] += step * a.v[k]; });
+    of.island_.for_each_velocity(
+        [&](std::size_t k) { of.island_.problem->v(0)[k] += step * a.v[k]; });
     s *= 1 + step * a.s;
   }
 
   // correction_: towards the curve at constant s. tangent_: along the curve, for ds = s.
   void find_directions() {
-    of.assemble(false);
     of.matrix_.factorise(false);
     const auto take = [&](Direction& out, double change) {
-      std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.dv_);
+      std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.island_.dv);
       out.s = change;
     };
-    of.ipm_direction(s, false);
+    of.find_direction(s, false);
     take(of.correction_, 0);
     const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
     for_each_cone([&](int i) {
       of.right_[i] = {s, 0, 0};
       of.d_z_[i] = {};
-      if (!is_contact(of.constraint(i))) return;
-      for (int k = i; k >= 0; k = of.next_disc_[k]) {
+      if (!is_contact(of.island_.constraint(i))) return;
+      for (int k = i; k >= 0; k = of.island_.next_disc[k]) {
         const ConeTerms& terms = of.terms_[k];
         const double kink = of.smoothing_ * terms.kink;
         const double from_s = terms.slip > 0 ? kink * kink / terms.slip : 0;
         of.d_z_[i][0] += terms.arm * (of.shift_factor_ * from_s - rise * terms.slip);
       }
     });
-    of.ipm_solve_kkt(of.d_z_, 0);
+    of.solve_kkt(of.d_z_, 0);
     take(of.tangent_, 1);
   }
   // Saves the point, unless repeated, and advances along the tangent, combined with the remaining
@@ -134,8 +133,8 @@ struct ImpulseSolver::CentralPath {
     if (!repeated) {
       if (corrections == 0 && at != At::start) length = std::min(kMaxLength, 2 * length);
       for_each_cone([&](int i) { of.saved_.x[i] = of.x_[i], of.saved_.z[i] = of.z_[i]; });
-      of.for_each_velocity(
-          [&](std::size_t k, std::size_t) { of.saved_.v[k] = of.problem_->v(0)[k]; });
+      of.island_.for_each_velocity(
+          [&](std::size_t k) { of.saved_.v[k] = of.island_.problem->v(0)[k]; });
       of.saved_.s = s;
     }
     mix(of.tangent_, scale, 0, of.tangent_);
@@ -146,8 +145,8 @@ struct ImpulseSolver::CentralPath {
   }
   void restore() {
     for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
-    of.for_each_velocity(
-        [&](std::size_t k, std::size_t) { of.problem_->v(0)[k] = of.saved_.v[k]; });
+    of.island_.for_each_velocity(
+        [&](std::size_t k) { of.island_.problem->v(0)[k] = of.saved_.v[k]; });
     s = of.saved_.s;
     length *= kShorten;
     at = At::back;
@@ -184,28 +183,27 @@ struct ImpulseSolver::CentralPath {
   }
 };
 
-// A different curve for each `start`. Sets p to the best point on it. Returns the number of steps.
-int ImpulseSolver::follow_path(int start) {
-  const double s0 = ipm_initialize(start);
+int InteriorPhase::follow_path(int start) {
+  const double s0 = initialize(start);
   for (Direction* direction : {&correction_, &tangent_, &last_, &saved_}) {
-    direction->v.resize(problem_->nv());
+    direction->v.resize(island_.problem->nv());
     direction->x.resize(x_.size()), direction->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
   CentralPath path{*this, s0};
   double best = infinity;
   int steps = 0;
-  for (; s0 > 0 && steps < kMaxSteps && has_budget(); ++steps) {
+  for (; s0 > 0 && steps < kMaxSteps && island_.has_budget(); ++steps) {
     shift_factor_ = std::max(0.0, 1 - path.s / s0);
     smoothing_ = path.s / s0;
     double residual = 0;
-    const bool inside = ipm_evaluate(residual) > 0 && residual < 1e100;
+    const bool inside = evaluate(residual) > 0 && residual < 1e100;
     if (inside && residual < best) {
       best = residual;
-      for (const int i : island_->constraints) kept_[i] = p_[i];
+      for (const int i : island_.constraints()) kept_[i] = island_.p[i];
     }
     if (path.at == CentralPath::At::start && steps > kMaxStartSteps) break;
-    if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
+    if (residual <= 0.5 * island_.wanted.accepted || path.s > 2 * s0) break;
     if (inside) {
       if (!path.step()) break;
     } else {
@@ -214,7 +212,7 @@ int ImpulseSolver::follow_path(int start) {
     }
   }
   if (best < infinity)
-    for (const int i : island_->constraints) constraint(i).p = kept_[i];
+    for (const int i : island_.constraints()) island_.constraint(i).p = kept_[i];
   return steps;
 }
 

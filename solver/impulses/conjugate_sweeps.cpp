@@ -33,36 +33,26 @@ Mat inverse_of(const Mat& W, int rows) {
 
 }  // namespace
 
-template <class F>
-void ConjugateSweeps::for_each_velocity(F&& f) const {
-  for (const int t : *trees_)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(problem_->size(t)); ++k)
-      f(problem_->first(t) + k);
-}
-
-void ConjugateSweeps::start(ImpulseProblem& problem, const Island& island) {
-  problem_ = &problem;
-  trees_ = &island.trees, constraints_ = &island.constraints, rho0_ = &island.rho0;
+void ConjugateSweeps::start(ImpulseIsland& island) {
+  island_ = &island;
+  ImpulseProblem& problem = *(problem_ = island.problem);
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   local_.resize(all.size()), change_.resize(all.size()), direction_.resize(all.size());
   v_.resize(problem.nv()), v_direction_.resize(problem.nv());
   Y_.resize(problem.jacobian_size());
-  for (const int i : island.constraints) {
-    ImpulseConstraint& c = problem.constraints()[i];
+  for (const int i : island.constraints()) {
+    ImpulseConstraint& c = island.constraint(i);
     for (int side = 0; side < 2; ++side) {
       if (c.tree[side] == ImpulseConstraint::no_tree) continue;
       const int tree = c.tree[side];
       std::copy_n(problem.J(c, side), c.rows * problem.size(tree), Y_.data() + c.J[side]);
-      with_size(problem.size(tree), [&](auto n) {
-        for (int r = 0; r < c.rows; ++r)
-          solve_cholesky(island.factors.data() + problem.block(tree), n,
-                         Y_.data() + c.J[side] + r * n);
-      });
+      for (int r = 0; r < c.rows; ++r)
+        island.solve_tree(tree, Y_.data() + c.J[side] + r * problem.size(tree));
     }
     set_local(c, i);
     change_[i] = direction_[i] = {};
   }
-  for_each_velocity([&](std::size_t k) { v_[k] = problem.v(0)[k], v_direction_[k] = 0; });
+  island_->for_each_velocity([&](std::size_t k) { v_[k] = problem.v(0)[k], v_direction_[k] = 0; });
   squared_ = last_squared_ = 0;
 }
 
@@ -91,8 +81,8 @@ double ConjugateSweeps::sweep() {
   extrapolate();
   double largest = 0;
   squared_ = 0;
-  for (const int i : *constraints_) {
-    ImpulseConstraint& c = problem_->constraints()[i];
+  for (const int i : island_->constraints()) {
+    ImpulseConstraint& c = island_->constraint(i);
     const Vec p = solve_constraint(c, i);
     Vec& change = change_[i];
     double here = 0;
@@ -104,8 +94,8 @@ double ConjugateSweeps::sweep() {
         with_shape(c.rows, problem_->size(t), [&](auto rows, auto n) {
           add_transposed_product(Y_.data() + c.J[side], rows, n, change.data(), problem_->v(t));
         });
-    squared_ += here / (*rho0_)[i];
-    largest = std::max(largest, here / ((*rho0_)[i] * (*rho0_)[i]));
+    squared_ += here / island_->rho0[i];
+    largest = std::max(largest, here / (island_->rho0[i] * island_->rho0[i]));
   }
   return std::sqrt(largest);
 }
@@ -114,15 +104,15 @@ double ConjugateSweeps::sweep() {
 void ConjugateSweeps::extrapolate() {
   const double beta = last_squared_ > 0 && squared_ <= last_squared_ ? squared_ / last_squared_ : 0;
   last_squared_ = squared_;
-  for (const int i : *constraints_) {
-    Vec &direction = direction_[i], &p = problem_->constraints()[i].p;
+  for (const int i : island_->constraints()) {
+    Vec &direction = direction_[i], &p = island_->constraint(i).p;
     for (int r = 0; r < 3; ++r) {
       p[r] += beta * direction[r];
       direction[r] = beta > 0 ? beta * direction[r] + change_[i][r] : 0;
     }
   }
   double* v = problem_->v(0);
-  for_each_velocity([&](std::size_t k) {
+  island_->for_each_velocity([&](std::size_t k) {
     const double change = v[k] - v_[k];
     v[k] += beta * v_direction_[k];
     v_direction_[k] = beta > 0 ? beta * v_direction_[k] + change : 0;
@@ -180,7 +170,7 @@ Vec ConjugateSweeps::solve_cone(const ImpulseConstraint& c, Local& local, const 
 }
 
 Vec ConjugateSweeps::solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q) {
-  const double radius = c.radius * std::max(0.0, problem_->constraints()[c.of].p[0]);
+  const double radius = c.radius * std::max(0.0, island_->constraint(c.of).p[0]);
   if (radius == 0) return {};
   Vec p = times(local.inverse, q);
   for (double& x : p) x = -x;

@@ -1,4 +1,4 @@
-// First phase of impulse_solver.h for many constraints: block Gauss-Seidel sweeps, each constraint
+// First phase of island_solver.h for many constraints: block Gauss-Seidel sweeps, each constraint
 // solved exactly with the others held, accelerated as a nonlinear conjugate-gradient method
 // (Silcowitz-Hansen, Niebe and Erleben 2010). A sweep costs a hundredth of a Newton step. Sweeps
 // identify sticking and sliding in tens to hundreds of sweeps; towers of redundant contacts, whose
@@ -8,19 +8,14 @@
 #include <array>
 #include <vector>
 
-#include "solver/impulses/impulse_law.h"
-#include "solver/impulses/impulse_problem.h"
+#include "solver/impulses/impulse_island.h"
 
 namespace twinarm {
 
 class ConjugateSweeps {
  public:
-  struct Island {
-    const std::vector<int>&trees, &constraints;
-    const std::vector<double>&factors, &rho0;  // of impulse_solver.h
-  };
-  // Constants of the island for sweep(). The solver's factors are those of the blocks of M.
-  void start(ImpulseProblem& problem, const Island& island);
+  // Constants of the island for sweep().
+  void start(ImpulseIsland& island);
   // One sweep: changes p of the constraints and v of the trees, which must satisfy the momentum
   // balance. Returns the maximum change of an impulse, as a velocity [m/s, rad/s].
   double sweep();
@@ -44,12 +39,9 @@ class ConjugateSweeps {
   Vec solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q);
   static std::array<double, 2> slide(const Sliding& problem, Local& local);
   void extrapolate();
-  template <class F>
-  void for_each_velocity(F&& f) const;
 
+  ImpulseIsland* island_ = nullptr;
   ImpulseProblem* problem_ = nullptr;
-  const std::vector<int>*trees_ = nullptr, *constraints_ = nullptr;
-  const std::vector<double>* rho0_ = nullptr;
   std::vector<double> Y_;                  // M^-1 J^T, laid out as J
   std::vector<Local> local_;               // by constraint
   std::vector<Vec> change_, direction_;    // by constraint

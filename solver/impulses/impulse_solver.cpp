@@ -1,272 +1,112 @@
 #include "solver/impulses/impulse_solver.h"
 
 #include <algorithm>
-#include <limits>
+#include <atomic>
+#include <future>
+#include <numeric>
+#include <thread>
 
-#include "solver/impulses/block_matrices.h"
+#include "solver/impulses/island_solver.h"
 
 namespace twinarm {
 namespace {
 
-constexpr int no_tree = ImpulseConstraint::no_tree;
-// Penalty rho, relative to rho0.
-constexpr double kFirstRho = 1e2, kLargeRho = 1e4, kDefaultMaxRho = 1e5, kMaxRho = 1e7, kMinRho = 1;
-constexpr double kDivergence = 10;       // residual relative to the best one
-constexpr std::size_t kSmallIsland = 8;  // constraints
-constexpr int kRestartFactor = 4;        // times max_newton
-constexpr int kMaxPaths = 8, kLargeNewton = 60;
-// Sweeps before interior_point.cpp: so many, or the work of so many Newton steps.
-constexpr double kFirstSweeps = 200, kSweepsPerNewton = 20;
-// Newton steps that the budget must allow: to begin with them; for interior_point.cpp after sweeps.
-constexpr double kAmple = 100, kInterior = 40;
+// Operations of islands that are worth the start of a thread (0.2 ms).
+constexpr double kThreadWork = 5e5;
 
 }  // namespace
 
+ImpulseSolver::ImpulseSolver() = default;
+ImpulseSolver::~ImpulseSolver() = default;
+ImpulseSolver::ImpulseSolver(const ImpulseSolver& other) {
+  *this = other;
+}
+ImpulseSolver& ImpulseSolver::operator=(const ImpulseSolver& other) {
+  accuracy = other.accuracy, threads = other.threads;
+  trees_ = other.trees_, solve_again_ = other.solve_again_;
+  return *this;
+}
+
 ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem, bool full) {
-  ImpulseReport report;
-  problem_ = &problem;
-  report.converged = factorise_trees();
-  const std::size_t count = problem_->constraints().size();
-  multipliers_.assign(count, {});
-  rho0_.assign(count, 0);
-  D_.resize(count), u_.resize(count), du_.resize(count), p_.resize(count);
-  f_.assign(problem_->nv(), 0), dv_.resize(problem_->nv()), delta_.resize(problem_->nv());
-  convex_v_.resize(problem_->nv());
-  std::copy_n(problem_->v0(0), problem_->tree_count() > 0 ? problem_->nv() : 0, problem_->v(0));
-  find_islands();
-  for (std::size_t i = 0; i < count; ++i) {
-    const ImpulseConstraint& c = problem_->constraints()[i];
-    double inverse = 0;
-    for (int side = 0; side < 2; ++side) {
-      if (c.tree[side] == no_tree) continue;
-      const int n = problem_->size(c.tree[side]);
-      const double *J = problem_->J(c, side), *M = problem_->M(c.tree[side]);
-      for (int k = 0; k < n; ++k) {
-        double sum = 0;
-        for (int r = 0; r < c.rows; ++r) sum += J[r * n + k] * J[r * n + k];
-        inverse += sum / M[k * n + k];
-      }
-    }
-    rho0_[i] = inverse > 0 ? c.rows / inverse : 1;
-  }
-  link_discs();
-  solve_again_.resize(static_cast<std::size_t>(problem_->tree_count()));
-  residual_.assign(solve_again_.size(), 0);
-  for (std::size_t i = 0; i < island_count_; ++i) {
-    island_ = &islands_[i];
-    double residual = apply_impulses();
-    char& again = solve_again_[static_cast<std::size_t>(island_->trees.front())];
-    const bool fails = !(residual <= good_guess);
-    bool open = fails || (again && residual > 0.1 * tolerance);
-    if (!open && residual > tolerance) {
-      residual = projected_gradient_step();
-      open = !(residual <= good_guess);  // can increase the residual of shared contacts
-    }
-    if (open) {
-      residual = solve_island(report, full);
-      if (!has_budget() && !(residual <= accepted)) residual = scale_impulses();
-      // Event-driven steps, with good_guess < tolerance, require the tolerance.
-      const double required = good_guess < tolerance ? tolerance : accepted;
-      const bool affords_newton = residual > tolerance && has_budget(3 * newton_work_);
-      if (island_->constraints.size() <= kSmallIsland ||
-          (affords_newton && (is_exact() || !(residual <= required))))
-        residual = refine_solution(residual);
-    }
-    again = fails;
-    for (const int t : island_->trees) residual_[static_cast<std::size_t>(t)] = residual;
-    report.residual = nan_max(report.residual, residual);
-    report.converged = report.converged && residual <= accepted;
-  }
-  return report;
-}
-
-bool ImpulseSolver::factorise_trees() {
-  factors_.resize(problem_->blocks_size());
-  bool positive = true;
-  for (int t = 0; t < problem_->tree_count(); ++t)
-    with_size(problem_->size(t), [&](auto n) {
-      positive = cholesky(problem_->M(t), n, factors_.data() + problem_->block(t)) && positive;
-    });
-  return positive;
-}
-
-void ImpulseSolver::solve_tree(int tree, double* f) const {
-  with_size(problem_->size(tree),
-            [&](auto n) { solve_cholesky(factors_.data() + problem_->block(tree), n, f); });
-}
-
-void ImpulseSolver::zero_forces() {
-  for (const int t : island_->trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem_->first(t)), problem_->size(t),
-                0.0);
-}
-
-// v = v0 + M^-1 J^T p and u = J v + b. Returns the residual of the laws.
-double ImpulseSolver::apply_impulses() {
-  zero_forces();
-  for (const int i : island_->constraints)
-    problem_->add_transpose(constraint(i), constraint(i).p, f_.data());
-  for (const int t : island_->trees) {
-    double* change = f_.data() + problem_->first(t);
-    solve_tree(t, change);
-    for (int k = 0; k < problem_->size(t); ++k) problem_->v(t)[k] = problem_->v0(t)[k] + change[k];
-  }
-  double residual = 0;
-  for (const int i : island_->constraints) {
-    ImpulseConstraint& c = constraint(i);
-    problem_->velocity(c, problem_->v(0), c.u);
-    for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
-    if (c.law == ConstraintType::friction_disc)
-      multipliers_[i].radius = c.radius * constraint(c.of).p[0];
-    residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
-  }
-  return residual;
-}
-
-// The same with impulses p.
-double ImpulseSolver::apply_impulses(const std::vector<Vec>& p) {
-  for (const int i : island_->constraints) constraint(i).p = p[i];
-  return apply_impulses();
-}
-
-// One projected gradient step. Applied to accepted guesses, whose residual would otherwise
-// accumulate over the steps of a body at rest.
-double ImpulseSolver::projected_gradient_step() {
-  constexpr double part = 0.125;  // rho / rho0: up to eight contacts share the inertia of a body
-  for (const int i : island_->constraints) {
-    ImpulseConstraint& c = constraint(i);
-    update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
-    multipliers_[i].rho = part * rho0_[i];
-    project_impulse(c, multipliers_[i], DeSaxceShift::frozen, c.u, p_[i], D_[i]);
-    if (c.law != ConstraintType::compliant) {
-      c.p = p_[i];
-    } else {  // Newton step of the spring
-      for (int r = 0; r < 3; ++r)
-        c.p[r] += part * (p_[i][r] - c.p[r]) / (1 + D_[i][4 * r] / rho0_[i]);
-    }
-  }
-  return apply_impulses();
-}
-
-void ImpulseSolver::keep_best(double residual) {
-  if (!(residual < best_)) return;  // also if it is not a number
-  best_ = residual;
-  for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
-}
-
-void ImpulseSolver::iterate(int max_steps, double rho, ImpulseReport& report) {
-  rho_ratio_ = rho;
-  run_augmented_lagrangian(max_steps, report);
-  keep_best(apply_impulses());
-}
-
-// The stages of impulse_solver.h until the residual is accepted. Sets the best p and returns its
-// residual.
-double ImpulseSolver::solve_island(ImpulseReport& report, bool full) {
-  ++report.solved;
-  order();
-  best_ = std::numeric_limits<double>::infinity();
-  for (std::vector<Vec>* p : {&best_p_, &iterate_p_, &guess_p_, &swept_p_})
-    p->resize(problem_->constraints().size());
-  const bool small = island_->constraints.size() <= kSmallIsland;
-  for (const int i : island_->constraints) best_p_[i] = guess_p_[i] = constraint(i).p;
-  if (small && has_warm_start()) {
-    keep_best(warm_start_newton(report));
-    if (best_ <= accepted) return best_;
-    apply_impulses(guess_p_);
-  }
-  if (small || (is_exact() && has_budget(kAmple * newton_work_))) {
-    iterate(small ? quick_newton_small : quick_newton, kFirstRho, report);
-  } else {
-    const bool interior_follows = has_budget(kInterior * newton_work_);
-    const double first = std::max(kFirstSweeps, kSweepsPerNewton * newton_work_ / sweep_work_);
-    run_sweeps(interior_follows ? first : std::numeric_limits<double>::infinity(), report);
-    if (!interior_follows) return apply_impulses(best_p_);
-  }
-  if (best_ <= accepted) return best_;
-  report.interior = std::max(report.interior, interior_point_start());
-  keep_best(apply_impulses());
-  if (best_ > accepted) iterate(small ? max_newton : kLargeNewton, kFirstRho, report);
-  if (full && best_ > accepted) try_other_starts(report);
-  if (best_ > accepted) {  // no solution found, or none there (Painleve): a small residual
-    keep_best(apply_impulses(guess_p_)), apply_impulses(best_p_);
-    run_sweeps(kFirstSweeps, report);
-  }
-  return apply_impulses(best_p_);
-}
-
-void ImpulseSolver::try_other_starts(ImpulseReport& report) {
-  const auto goes_on = [&] { return best_ > accepted && has_budget(); };
-  const bool small = island_->constraints.size() <= kSmallIsland;
-  const auto from_path = [&](int start, int max_steps) {
-    report.path = std::max(report.path, follow_path(start));
-    keep_best(apply_impulses());
-    if (best_ > accepted) iterate(max_steps, kFirstRho, report);
+  find_islands(problem);
+  if (problem.tree_count() > 0) std::copy_n(problem.v0(0), problem.nv(), problem.v(0));
+  solve_again_.resize(static_cast<std::size_t>(problem.tree_count()));
+  const std::size_t count = useful_threads();
+  trees_.assign(solve_again_.size(), {});
+  while (solvers_.size() < count) solvers_.push_back(std::make_unique<IslandSolver>());
+  reports_.assign(count, {});
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](std::size_t thread) {
+    for (std::size_t i; (i = next++) < island_count_;)
+      solve_island(problem, i, full, *solvers_[thread], reports_[thread]);
   };
-  if (!small) from_path(0, kLargeNewton);
-  // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
-  // leads to jamming even if a small gap excludes it: also iterate from the guess.
-  for (const double rho : {kFirstRho, kLargeRho}) {
-    if (!goes_on()) break;
-    apply_impulses(guess_p_);
-    iterate(max_newton, rho, report);
-  }
-  for (int start = small ? 0 : 1; start < kMaxPaths && goes_on(); ++start)
-    from_path(start, max_newton);
-  // Restarts from the best p while the residual decreases.
-  for (double before = 0; goes_on() && (before == 0 || best_ < 0.5 * before);) {
-    before = best_;
-    apply_impulses(best_p_);
-    iterate(kRestartFactor * max_newton, kFirstRho, report);
-  }
+  std::vector<std::future<void>> others;
+  for (std::size_t k = 1; k < count; ++k) others.push_back(std::async(std::launch::async, work, k));
+  work(0);
+  for (std::future<void>& other : others) other.get();
+  for (std::size_t k = 1; k < count; ++k) reports_[0].add(reports_[k]);
+  return reports_[0];
 }
 
-void ImpulseSolver::update_multipliers() {
-  for (const int i : island_->constraints) {
-    const ImpulseConstraint& c = constraint(i);
-    update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
-  }
+// One, unless the islands beside the largest took long in the last step.
+std::size_t ImpulseSolver::useful_threads() const {
+  double sum = 0, largest = 0;
+  if (threads != 1 && trees_.size() == solve_again_.size())
+    for (std::size_t i = 0; i < island_count_; ++i) {
+      const double work = trees_[static_cast<std::size_t>(islands_[i].trees.front())].work;
+      sum += work, largest = std::max(largest, work);
+    }
+  if (sum - largest < kThreadWork) return 1;
+  const std::size_t most = threads > 0 ? threads : std::thread::hardware_concurrency();
+  return std::clamp<std::size_t>(most, 1, island_count_);
 }
 
-// From p and u of the constraints, v and rho_ratio_. If the residual grows, restart from the best
-// iterate with a smaller rho, which keeps the inner solutions closer to the start.
-void ImpulseSolver::run_augmented_lagrangian(int max_steps, ImpulseReport& report) {
-  int newton = 0;
-  double last = 0, best = std::numeric_limits<double>::infinity();
-  double max_rho = kDefaultMaxRho;
-  for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
-  update_multipliers();
-  // For many bodies the bound is larger than their final errors and would end iterations too early.
-  rounding_error_ = island_->constraints.size() <= kSmallIsland ? rounding_error() : 0;
-  while (newton < max_steps && has_budget()) {
-    for (const int i : island_->constraints) multipliers_[i].rho = rho_ratio_ * rho0_[i];
-    const InnerResult inner = solve_inner_problem(max_steps - newton);
-    newton += std::max(1, inner.steps);
-    double residual = inner.error;
-    for (const int i : island_->constraints) {
-      ImpulseConstraint& c = constraint(i);
-      c.p = p_[i], c.u = u_[i];
-      update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
-      residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
+void ImpulseSolver::solve_island(ImpulseProblem& problem, std::size_t island, bool full,
+                                 IslandSolver& solver, ImpulseReport& report) {
+  const ImpulseIsland::Members& members = islands_[island];
+  char& again = solve_again_[static_cast<std::size_t>(members.trees.front())];
+  IslandSolver::Request request{accuracy, full, again != 0};
+  const double residual = solver.solve(problem, members, request, report);
+  again = request.again;
+  for (const int t : members.trees) trees_[static_cast<std::size_t>(t)] = {residual, request.work};
+  report.residual = nan_max(report.residual, residual);
+  report.converged = report.converged && residual <= accuracy.accepted;
+}
+
+// Union-find over the constraints; members of an island are ascending.
+void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
+  constexpr int world = ImpulseConstraint::no_tree;
+  const auto trees = static_cast<std::size_t>(problem.tree_count());
+  root_.resize(trees);
+  std::iota(root_.begin(), root_.end(), 0);
+  const auto find = [&](int t) {
+    while (root_[t] != t) t = root_[t] = root_[root_[t]];
+    return t;
+  };
+  for (const ImpulseConstraint& c : problem.constraints())
+    if (c.tree[0] != world && c.tree[1] != world) {
+      const int a = find(c.tree[0]), b = find(c.tree[1]);
+      root_[std::max(a, b)] = std::min(a, b);
     }
-    report.newton = std::max(report.newton, newton);
-    if (residual <= 0.3 * tolerance) return;
-    if (residual < best) {
-      best = residual;
-      for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
-    } else if (!(residual <= kDivergence * best) && rho_ratio_ > kMinRho) {
-      apply_impulses(iterate_p_);
-      update_multipliers();
-      max_rho = rho_ratio_ = std::max(kMinRho, 0.01 * rho_ratio_);
-      last = best;
-      continue;
+  island_of_.assign(trees, -1);
+  island_count_ = 0;
+  const auto island_at = [&](int tree) -> ImpulseIsland::Members& {
+    int& island = island_of_[find(tree)];
+    if (island < 0) {
+      island = static_cast<int>(island_count_++);
+      if (islands_.size() < island_count_) islands_.emplace_back();
+      islands_[island].trees.clear(), islands_[island].constraints.clear();
     }
-    // Slow convergence of the multipliers with a constant active set requires a larger rho.
-    const bool slow = inner.steps <= 2 && residual > 0.3 * last;
-    if (rho_ratio_ < max_rho || (slow && rho_ratio_ < kMaxRho)) rho_ratio_ *= 10;
-    last = residual;
+    return islands_[island];
+  };
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    if (const int t = c.tree[0] != world ? c.tree[0] : c.tree[1]; t != world)
+      island_at(t).constraints.push_back(static_cast<int>(i));
   }
-  if (!(last <= best)) apply_impulses(iterate_p_);
+  for (std::size_t t = 0; t < trees; ++t)  // trees without constraints keep v0
+    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0)
+      islands_[island].trees.push_back(static_cast<int>(t));
 }
 
 }  // namespace twinarm

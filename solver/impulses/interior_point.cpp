@@ -1,4 +1,4 @@
-// Start of the iterations of impulse_solver.h if the active set changes much: primal-dual
+// Start of the iterations of island_solver.h if the active set changes much: primal-dual
 // interior-point method on the exact laws with de Saxce shift (after Acary, Armand, Nguyen and
 // Shpakovych 2023).
 //
@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/impulses/impulse_solver.h"
+#include "solver/impulses/interior_phase.h"
 
 namespace twinarm {
 namespace {
@@ -24,23 +24,22 @@ constexpr int kMaxIterations = 60, kMaxStuck = 3;
 
 }  // namespace
 
-int ImpulseSolver::interior_point_start() {
-  ipm_initialize(0);
+int InteriorPhase::solve() {
+  initialize(0);
   shift_factor_ = 1, smoothing_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
-  for (; iterations < kMaxIterations && stuck <= kMaxStuck && has_budget(); ++iterations) {
+  for (; iterations < kMaxIterations && stuck <= kMaxStuck && island_.has_budget(); ++iterations) {
     double residual = 0;
-    const double mean = ipm_evaluate(residual);
+    const double mean = evaluate(residual);
     if (!(mean > 0) || !(residual < 1e100)) break;
     if (residual < best) {
       best = residual;
-      for (const int i : island_->constraints) kept_[i] = p_[i];
+      for (const int i : island_.constraints()) kept_[i] = island_.p[i];
     }
-    if (residual <= tolerance) break;
-    assemble(false);
+    if (residual <= island_.wanted.tolerance) break;
     if (!matrix_.factorise(false)) break;
-    const double affine = std::min(1.0, ipm_direction(0, false));
+    const double affine = std::min(1.0, find_direction(0, false));
     double after = 0;
     for (const int i : cones_)
       for (int r = 0; r < 3; ++r)
@@ -49,17 +48,17 @@ int ImpulseSolver::interior_point_start() {
     double centering = std::clamp(ratio * ratio * ratio, kMinCentering, 1.0);
     const bool correct = step >= kPoorStep;  // after a poor step: centering without corrector
     if (!correct) centering = std::max(centering, 0.3);
-    step = std::min(1.0, 0.99 * ipm_direction(centering * mean, correct));
+    step = std::min(1.0, 0.99 * find_direction(centering * mean, correct));
     stuck += step < kStuckStep;
-    ipm_update(step);
+    update(step);
   }
-  for (const int i : island_->constraints) constraint(i).p = kept_[i];
+  for (const int i : island_.constraints()) island_.constraint(i).p = kept_[i];
   return iterations;
 }
 
 // Direction dv_, dx_, dz_ towards x o z = s e, with Mehrotra's corrector from the previous
 // direction if `correct`. Returns the maximum step within the cones.
-double ImpulseSolver::ipm_direction(double s, bool correct) {
+double InteriorPhase::find_direction(double s, bool correct) {
   for (const int i : cones_) {
     const ConeScaling& scaling = scaling_[i];
     const Vec square = jordan(scaling.t, scaling.t);
@@ -70,17 +69,17 @@ double ImpulseSolver::ipm_direction(double s, bool correct) {
     const Vec second = jordan(Wdz, Wdx);
     for (int r = 0; r < 3; ++r) right_[i][r] -= second[r];
   }
-  ipm_solve_kkt(r_z_, 1);
+  solve_kkt(r_z_, 1);
   double max_step = std::numeric_limits<double>::infinity();
   for (const int i : cones_)
     max_step = std::min({max_step, cone_step(x_[i], dx_[i]), cone_step(z_[i], dz_[i])});
   return max_step;
 }
 
-void ImpulseSolver::ipm_update(double step) {
+void InteriorPhase::update(double step) {
   for (const int i : cones_)
     for (int r = 0; r < 3; ++r) x_[i][r] += step * dx_[i][r], z_[i][r] += step * dz_[i][r];
-  move(step);
+  island_.move(step);
 }
 
 }  // namespace twinarm

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/impulses/impulse_solver.h"
+#include "solver/impulses/interior_phase.h"
 #include "solver/impulses/ipm_equations.h"
 
 namespace twinarm {
@@ -40,41 +40,41 @@ Vec in_rows(const ImpulseConstraint& c, double normal, const std::array<double, 
 
 }  // namespace
 
-bool ImpulseSolver::has_cone(const ImpulseConstraint& c) const {
-  if (c.law == ConstraintType::friction_disc) return c.radius > 0 && is_contact(constraint(c.of));
+bool InteriorPhase::has_cone(const ImpulseConstraint& c) const {
+  if (c.law == ConstraintType::friction_disc)
+    return c.radius > 0 && is_contact(island_.constraint(c.of));
   if (c.law == ConstraintType::box) return c.low < c.high && c.high - c.low < 1e100;
   return is_contact(c);
 }
 
 // x and z on the axes of their cones, scaled by impulses and velocities of the problem; later
 // starts use other scales. Returns x_0 z_0; 0 without cones.
-double ImpulseSolver::ipm_initialize(int start) {
-  const std::size_t count = problem_->constraints().size();
+double InteriorPhase::initialize(int start) {
+  const std::size_t count = island_.problem->constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
   r_z_.resize(count), right_.resize(count), terms_.resize(count), scaling_.resize(count);
   kept_.resize(count);
-  rho_ratio_ = kNoConeRho;
-  for (const int t : island_->trees)
-    std::copy_n(problem_->v0(t), problem_->size(t), problem_->v(t));
+  for (const int t : island_.trees())
+    std::copy_n(island_.problem->v0(t), island_.problem->size(t), island_.problem->v(t));
   double speed = 1e-6, impulse = 1e-9;
   cones_.clear();
-  for (const int i : island_->constraints) {
-    ImpulseConstraint& c = constraint(i);
-    multipliers_[i].rho = rho_ratio_ * rho0_[i];
-    multipliers_[i].l = kept_[i] = c.p;
+  for (const int i : island_.constraints()) {
+    ImpulseConstraint& c = island_.constraint(i);
+    island_.multipliers[i].rho = kNoConeRho * island_.rho0[i];
+    island_.multipliers[i].l = kept_[i] = c.p;
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
     if (!has_cone(c)) continue;
     cones_.push_back(i);
     if (c.law == ConstraintType::friction_disc) continue;  // scaled with its contact
-    problem_->velocity(c, problem_->v(0), c.u);
+    island_.problem->velocity(c, island_.problem->v(0), c.u);
     for (int r = 0; r < c.rows; ++r) {
       speed = std::max(speed, std::abs(c.u[r] + c.b[r]));
-      impulse = std::max(impulse, rho0_[i] * std::abs(c.u[r] + c.b[r]));
+      impulse = std::max(impulse, island_.rho0[i] * std::abs(c.u[r] + c.b[r]));
     }
   }
   const double s0 = impulse * speed * kStartScales[start];
   for (const int i : cones_) {
-    const ImpulseConstraint& c = constraint(i);
+    const ImpulseConstraint& c = island_.constraint(i);
     terms_[i].arm = arm_of(c);
     if (c.law == ConstraintType::friction_disc)
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
@@ -87,37 +87,38 @@ double ImpulseSolver::ipm_initialize(int start) {
 }
 
 // p, u, residuals and D. Returns the mean of x . z.
-double ImpulseSolver::ipm_evaluate(double& residual) {
+double InteriorPhase::evaluate(double& residual) {
   double sum = 0;
   residual = 0;
-  coupling_blocks_.clear();
-  zero_forces();
-  for (const int i : island_->constraints) {
-    ImpulseConstraint& c = constraint(i);
-    problem_->velocity(c, problem_->v(0), c.u);
+  island_.coupling.clear();
+  island_.zero_forces();
+  for (const int i : island_.constraints()) {
+    ImpulseConstraint& c = island_.constraint(i);
+    island_.problem->velocity(c, island_.problem->v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
     if (c.law == ConstraintType::friction_disc)
-      multipliers_[i].radius = c.radius * constraint(c.of).p[0];
-    if (c.law == ConstraintType::compliant) multipliers_[i].radius = c.mu * c.p[0];
+      island_.multipliers[i].radius = c.radius * island_.constraint(c.of).p[0];
+    if (c.law == ConstraintType::compliant) island_.multipliers[i].radius = c.mu * c.p[0];
     if (has_cone(c)) {
       sum += cone_dot(x_[i], z_[i]);
-      ipm_evaluate_cone(c, i);
+      evaluate_cone(c, i);
     } else {
-      project_impulse(c, multipliers_[i], DeSaxceShift::frozen, c.u, c.p, D_[i]);
-      multipliers_[i].l = c.p;
+      project_impulse(c, island_.multipliers[i], DeSaxceShift::frozen, c.u, c.p, island_.D[i]);
+      island_.multipliers[i].l = c.p;
     }
-    p_[i] = c.p, u_[i] = c.u;
-    problem_->add_transpose(c, c.p, f_.data());
-    residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
+    island_.p[i] = c.p, island_.u[i] = c.u;
+    island_.problem->add_transpose(c, c.p, island_.forces.data());
+    residual =
+        nan_max(residual, law_residual(c, island_.multipliers[i], island_.rho0[i], c.u, c.p));
   }
   for (const int i : cones_)
-    if (is_contact(constraint(i))) ipm_couple_discs(i);
-  residual = nan_max(residual, momentum_balance().largest);
+    if (is_contact(island_.constraint(i))) couple_discs(i);
+  residual = nan_max(residual, island_.momentum_balance().largest);
   return sum / std::max<double>(1, static_cast<double>(cones_.size()));
 }
 
 // p from x, and the terms of one cone.
-void ImpulseSolver::ipm_evaluate_cone(ImpulseConstraint& c, int i) {
+void InteriorPhase::evaluate_cone(ImpulseConstraint& c, int i) {
   ConeTerms& terms = terms_[i];
   const ConeVec &x = x_[i], &z = z_[i];
   const int first = first_tangential(c), count = tangential_rows(c);
@@ -144,74 +145,76 @@ void ImpulseSolver::ipm_evaluate_cone(ImpulseConstraint& c, int i) {
   const double a = scaling.w[1], b = scaling.w[2];
   terms.S = t2 > 0 ? std::array{along + more * b * b, -more * a * b, along + more * a * a}
                    : std::array{eta2, 0.0, eta2};
-  set_tangential(c, terms.S, D_[i]);
+  set_tangential(c, terms.S, island_.D[i]);
 }
 
 // Contact and its discs: C, r_n, and the blocks of D.
-void ImpulseSolver::ipm_couple_discs(int contact) {
-  double C = 0, r_n = constraint(contact).u[0];
-  for (int k = contact; k >= 0; k = next_disc_[k]) {
+void InteriorPhase::couple_discs(int contact) {
+  double C = 0, r_n = island_.constraint(contact).u[0];
+  for (int k = contact; k >= 0; k = island_.next_disc[k]) {
     const ConeTerms& terms = terms_[k];
     C += terms.arm * terms.arm / terms.A;
     r_n += terms.arm * (shift_factor_ * terms.slip - z_[k][0]);
   }
   terms_[contact].C = C;
   r_z_[contact][0] = r_n;
-  for (int i = contact; i >= 0; i = next_disc_[i])
-    for (int j = contact; j >= 0; j = next_disc_[j]) {
+  for (int i = contact; i >= 0; i = island_.next_disc[i])
+    for (int j = contact; j >= 0; j = island_.next_disc[j]) {
       const ConeTerms &a = terms_[i], &b = terms_[j];
-      const Vec e = in_rows(constraint(i), 1, {a.arm * a.h[0], a.arm * a.h[1]});
-      const Vec f = in_rows(constraint(j), 1, {b.l[0] + b.arm * b.h[0], b.l[1] + b.arm * b.h[1]});
-      if (i != j) coupling_blocks_.push_back({i, j, {}});
-      Mat& D = i == j ? D_[i] : coupling_blocks_.back().D;
-      for (int r = 0; r < constraint(i).rows; ++r)
-        for (int k = 0; k < constraint(j).rows; ++k) D[3 * r + k] += e[r] * f[k] / C;
+      const Vec e = in_rows(island_.constraint(i), 1, {a.arm * a.h[0], a.arm * a.h[1]});
+      const Vec f =
+          in_rows(island_.constraint(j), 1, {b.l[0] + b.arm * b.h[0], b.l[1] + b.arm * b.h[1]});
+      if (i != j) island_.coupling.push_back({i, j, {}});
+      Mat& D = i == j ? island_.D[i] : island_.coupling.back().D;
+      for (int r = 0; r < island_.constraint(i).rows; ++r)
+        for (int k = 0; k < island_.constraint(j).rows; ++k) D[3 * r + k] += e[r] * f[k] / C;
     }
 }
 
 // Solves the linearised equations for dv_, dx_, dz_:  t o (W dz + W^-1 dx) = right_,
 // M dv = J^T dp - factor rhs_, with residuals r = (r_n, w - z_t). matrix_ must be factorised.
-void ImpulseSolver::ipm_solve_kkt(const std::vector<ConeVec>& r, double factor) {
-  zero_forces();
+void InteriorPhase::solve_kkt(const std::vector<ConeVec>& r, double factor) {
+  island_.zero_forces();
   for (const int i : cones_) {
     d_[i] = times(scaling_[i].W, jordan_solve(scaling_[i].t, right_[i]));
     terms_[i].n = 0;
   }
   for (const int i : cones_) {
-    if (!is_contact(constraint(i))) continue;
+    if (!is_contact(island_.constraint(i))) continue;
     double sum = -r[i][0];
-    for (int k = i; k >= 0; k = next_disc_[k])
+    for (int k = i; k >= 0; k = island_.next_disc[k])
       sum += terms_[k].arm * (d_[k][0] / terms_[k].A - dot2(terms_[k].h, {r[k][1], r[k][2]}));
-    for (int k = i; k >= 0; k = next_disc_[k]) terms_[k].n = sum / terms_[i].C;
+    for (int k = i; k >= 0; k = island_.next_disc[k]) terms_[k].n = sum / terms_[i].C;
   }
   for (const int i : cones_) {
     const auto q = tangential_dx(i, terms_[i].n, {r[i][1], r[i][2]});
-    problem_->add_transpose(constraint(i), in_rows(constraint(i), terms_[i].n, q), f_.data());
+    island_.problem->add_transpose(island_.constraint(i),
+                                   in_rows(island_.constraint(i), terms_[i].n, q),
+                                   island_.forces.data());
   }
-  step_rhs_.resize(rhs_.size());
-  for_each_velocity(
-      [&](std::size_t k, std::size_t row) { step_rhs_[row] = f_[k] - factor * rhs_[row]; });
-  matrix_.solve(step_rhs_.data());
-  for_each_velocity([&](std::size_t k, std::size_t row) { dv_[k] = step_rhs_[row]; });
-  ipm_back_substitute(r);
+  island_.for_each_velocity(
+      [&](std::size_t k) { island_.dv[k] = island_.forces[k] - factor * island_.balance[k]; });
+  matrix_.solve(island_.dv);
+  back_substitute(r);
 }
 
 // dx and dz from dv.
-void ImpulseSolver::ipm_back_substitute(const std::vector<ConeVec>& r) {
-  for (const int i : cones_) problem_->velocity(constraint(i), dv_.data(), du_[i]);
+void InteriorPhase::back_substitute(const std::vector<ConeVec>& r) {
+  for (const int i : cones_)
+    island_.problem->velocity(island_.constraint(i), island_.dv.data(), island_.du[i]);
   for (const int i : cones_) {
-    if (!is_contact(constraint(i))) continue;
-    double sum = du_[i][0];
-    for (int k = i; k >= 0; k = next_disc_[k]) {
+    if (!is_contact(island_.constraint(i))) continue;
+    double sum = island_.du[i][0];
+    for (int k = i; k >= 0; k = island_.next_disc[k]) {
       const ConeTerms& terms = terms_[k];
       sum += dot2({terms.l[0] + terms.arm * terms.h[0], terms.l[1] + terms.arm * terms.h[1]},
-                  tangential_part(constraint(k), du_[k]));
+                  tangential_part(island_.constraint(k), island_.du[k]));
     }
-    for (int k = i; k >= 0; k = next_disc_[k]) terms_[k].n -= sum / terms_[i].C;
+    for (int k = i; k >= 0; k = island_.next_disc[k]) terms_[k].n -= sum / terms_[i].C;
   }
   for (const int i : cones_) {
     const ConeTerms& terms = terms_[i];
-    const auto dw = tangential_part(constraint(i), du_[i]);
+    const auto dw = tangential_part(island_.constraint(i), island_.du[i]);
     const std::array<double, 2> dz{dw[0] + r[i][1], dw[1] + r[i][2]};
     const auto dx = tangential_dx(i, terms.n, dz);
     dx_[i] = {terms.arm * terms.n, dx[0], dx[1]};
@@ -220,7 +223,7 @@ void ImpulseSolver::ipm_back_substitute(const std::vector<ConeVec>& r) {
 }
 
 // dx_t = d_t - h (d_0 - a dp_n) - S dz_t
-std::array<double, 2> ImpulseSolver::tangential_dx(int i, double dp_n,
+std::array<double, 2> InteriorPhase::tangential_dx(int i, double dp_n,
                                                    const std::array<double, 2>& dz) const {
   const ConeTerms& terms = terms_[i];
   const ConeVec& d = d_[i];

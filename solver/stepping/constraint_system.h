@@ -56,7 +56,7 @@ class ConstraintSystem {
   std::vector<double> velocity;  // v0 at store_velocities()
 
   void begin_step(const IntegrationState& m, double h) {
-    if (budget_ > 0 && h > 0) solver.budget = budget_ * h;
+    if (budget_ > 0 && h > 0) solver.accuracy.budget = budget_ * h;
     for (ConstraintSource* source : sources) source->begin_step(m.k, m.x, h);
   }
   // m.w.qdd at m.x without constraints; m.k must be up to date.
@@ -76,7 +76,7 @@ class ConstraintSystem {
 
   // Residuals [m/s]: of an accepted guess, of an accepted solution, target of the iteration.
   void set_accuracy(double good_guess, double accepted, double tolerance) {
-    solver.good_guess = good_guess, solver.accepted = accepted, solver.tolerance = tolerance;
+    solver.accuracy = {good_guess, accepted, tolerance, solver.accuracy.budget};
   }
   void set_default_accuracy() { set_accuracy(default_[0], default_[1], default_[2]); }
   // Of fixed steps: largest residual of a solution [m/s, rad/s]; floating-point operations per
@@ -90,7 +90,8 @@ class ConstraintSystem {
  private:
   std::vector<std::size_t> first_;  // by source: index of its first constraint
   double budget_ = 0;
-  std::array<double, 3> default_{solver.good_guess, solver.accepted, solver.tolerance};
+  std::array<double, 3> default_{solver.accuracy.good_guess, solver.accuracy.accepted,
+                                 solver.accuracy.tolerance};
 };
 
 }  // namespace twinarm

@@ -76,6 +76,34 @@ inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints,
   return problem;
 }
 
+// Copy of constraint i, on trees with an offset.
+inline void add_copy(ImpulseProblem& problem, std::size_t i, int shift) {
+  const ImpulseConstraint original = problem.constraints()[i];
+  const auto moved = [&](int t) { return t == ImpulseConstraint::no_tree ? t : t + shift; };
+  ImpulseConstraint& c =
+      problem.add(original.law, original.rows, moved(original.tree[0]), moved(original.tree[1]));
+  c.mu = original.mu, c.b = original.b;
+  for (int side = 0; side < 2; ++side)
+    if (c.tree[side] != ImpulseConstraint::no_tree)
+      std::copy_n(problem.J(original, side), c.rows * problem.size(c.tree[side]),
+                  problem.J(c, side));
+}
+
+// Copies of the problem side by side, at velocities apart.
+inline ImpulseProblem side_by_side(const ImpulseProblem& one, int copies) {
+  ImpulseProblem all = one;
+  const int trees = one.tree_count();
+  for (int copy = 1; copy < copies; ++copy) {
+    for (int t = 0; t < trees; ++t) {
+      const int n = one.size(t), to = all.add_tree(n);
+      std::copy_n(one.M(t), n * n, all.M(to));
+      for (int k = 0; k < n; ++k) all.v0(to)[k] = (1 + 0.1 * copy) * one.v0(t)[k];
+    }
+    for (std::size_t i = 0; i < one.constraints().size(); ++i) add_copy(all, i, copy * trees);
+  }
+  return all;
+}
+
 // A pyramid of boxes of 1 kg and 0.1 m side, `levels` high, with random velocities while they
 // touch: four contacts per pair, with restitution.
 inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {

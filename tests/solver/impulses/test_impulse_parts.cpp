@@ -168,9 +168,9 @@ TEST_CASE(
     if (std::hypot(held[1], held[2]) > c.mu * held[0]) continue;  // it slides
     for (int k = 0; k < 3; ++k) c.p[k] = held[k] * (1 + random.uniform(-1, 1) * 1e-3);
     ImpulseSolver solver;
-    solver.good_guess = 1e-14, solver.accepted = 1e-11, solver.tolerance = 1e-13;
+    solver.accuracy = {.good_guess = 1e-14, .accepted = 1e-11, .tolerance = 1e-13};
     const ImpulseReport report = solver.solve(problem);
-    CHECK(report.residual <= solver.accepted);
+    CHECK(report.residual <= solver.accuracy.accepted);
     ++held_ones, far += report.interior > 0;
     for (int k = 0; k < 3; ++k)
       CHECK(std::abs(problem.constraints()[0].p[k] - held[k]) < 1e-11 * mass);

@@ -70,6 +70,9 @@ TEST_CASE("impulses with a mass matrix that is not positive definite are not cal
     problem.add_tree(1);
     problem.M(0)[0] = mass;
     problem.v0(0)[0] = 0;
+    const ImpulseConstraint& limit =
+        problem.add(ConstraintType::unilateral, 1, 0, ImpulseConstraint::no_tree);
+    problem.J(limit, 0)[0] = 1;
     ImpulseSolver solver;
     CHECK(solver.solve(problem).converged == (mass > 0));
   }

@@ -14,16 +14,16 @@ namespace {
 
 // Sweeps from p = 0; sets v, p and u of the problem.
 void sweep(ImpulseProblem& problem, int count) {
-  std::vector<double> factors(problem.blocks_size());
-  for (int t = 0; t < problem.tree_count(); ++t)
-    REQUIRE(cholesky(problem.M(t), problem.size(t), factors.data() + problem.block(t)));
-  std::vector<int> trees(static_cast<std::size_t>(problem.tree_count()));
-  std::vector<int> constraints(problem.constraints().size());
-  std::iota(trees.begin(), trees.end(), 0), std::iota(constraints.begin(), constraints.end(), 0);
-  const std::vector<double> rho0(constraints.size(), 1);
-  for (int t : trees) std::copy_n(problem.v0(t), problem.size(t), problem.v(t));
+  ImpulseIsland::Members all;
+  all.trees.resize(static_cast<std::size_t>(problem.tree_count()));
+  all.constraints.resize(problem.constraints().size());
+  std::iota(all.trees.begin(), all.trees.end(), 0);
+  std::iota(all.constraints.begin(), all.constraints.end(), 0);
+  ImpulseIsland island;
+  REQUIRE(island.set(problem, all, {}));
+  island.apply_impulses();
   ConjugateSweeps sweeps;
-  sweeps.start(problem, {trees, constraints, factors, rho0});
+  sweeps.start(island);
   for (int k = 0; k < count; ++k) sweeps.sweep();
   for (ImpulseConstraint& c : problem.constraints()) {
     problem.velocity(c, problem.v(0), c.u);
@@ -108,8 +108,8 @@ TEST_CASE("an accuracy of 1e-4 m/s is met, by sweeps alone in random heaps") {
     ImpulseProblem problem =
         is_heap ? random_problem(seed, 6, 18, 10, true) : struck_pyramid(seed, 5);
     ImpulseSolver solver;
-    solver.good_guess = solver.accepted = 1e-4;
-    solver.tolerance = 2e-6;
+    solver.accuracy.good_guess = solver.accuracy.accepted = 1e-4;
+    solver.accuracy.tolerance = 2e-6;
     const ImpulseReport report = solver.solve(problem);
     CHECK(report.converged);
     CHECK(report.residual <= 1e-4);
@@ -130,7 +130,7 @@ TEST_CASE("a budget is kept, gives the same bits again, and no energy") {
       for (ImpulseConstraint& c : problem.constraints()) c.p = {1, 0.1, 0};  // far too large
       ImpulseProblem again = problem;
       ImpulseSolver solver, other;
-      solver.budget = other.budget = budget;
+      solver.accuracy.budget = other.accuracy.budget = budget;
       const ImpulseReport report = solver.solve(problem);
       other.solve(again);
       CHECK(std::equal(problem.v(0), problem.v(0) + problem.nv(), again.v(0)));
@@ -149,7 +149,7 @@ TEST_CASE("a larger budget leaves smaller residuals") {
     for (unsigned seed = 0; seed < 20; ++seed) {
       ImpulseProblem problem = pyramid(seed, 6);
       ImpulseSolver solver;
-      solver.budget = budget;
+      solver.accuracy.budget = budget;
       sum += solver.solve(problem).residual;
     }
     CAPTURE(budget);

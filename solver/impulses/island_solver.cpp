@@ -1,0 +1,139 @@
+#include "solver/impulses/island_solver.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace twinarm {
+namespace {
+
+constexpr double kFirstRho = NewtonPhase::kFirstRho, kLargeRho = 1e4;
+// Newton steps: before interior_point.cpp is tried, also of a small island; after it.
+constexpr int kQuickNewton = 12, kQuickNewtonSmall = NewtonPhase::kFewSteps, kLargeNewton = 60;
+constexpr int kRestartFactor = 4;  // times kMaxNewton
+// Sweeps before interior_point.cpp: so many, or the work of so many Newton steps.
+constexpr double kFirstSweeps = 200, kSweepsPerNewton = 20;
+// Newton steps that the budget must allow: to begin with them; for interior_point.cpp after sweeps.
+constexpr double kAmple = 100, kInterior = 40;
+constexpr double kSweepsToNewton = 1e-6;  // change in a sweep before Newton steps are tried [m/s]
+
+}  // namespace
+
+double IslandSolver::solve(ImpulseProblem& problem, const ImpulseIsland::Members& members,
+                           Request& request, ImpulseReport& report) {
+  const ImpulseAccuracy& wanted = request.accuracy;
+  report.converged = island_.set(problem, members, wanted) && report.converged;
+  double residual = island_.apply_impulses();
+  const bool fails = !(residual <= wanted.good_guess);
+  bool open = fails || (request.again && residual > 0.1 * wanted.tolerance);
+  request.again = fails;
+  if (!open && residual > wanted.tolerance) {
+    residual = island_.projected_gradient_step();
+    open = !(residual <= wanted.good_guess);  // can increase the residual of shared contacts
+  }
+  if (!open) return residual;
+  ++report.solved;
+  matrix_.set(island_);
+  island_.keep_best(residual);
+  residual = run_phases(request.full, report);
+  if (!island_.has_budget() && !(residual <= wanted.accepted)) residual = island_.scale_impulses();
+  // Event-driven steps, with good_guess < tolerance, require the tolerance.
+  const double required = wanted.good_guess < wanted.tolerance ? wanted.tolerance : wanted.accepted;
+  const bool affords_newton = residual > wanted.tolerance && island_.has_budget(3 * matrix_.work());
+  if (island_.is_small() || (affords_newton && (is_exact() || !(residual <= required))))
+    residual = newton_.refine(residual);
+  request.work = island_.work;
+  return residual;
+}
+
+bool IslandSolver::is_exact() const {
+  return island_.wanted.accepted < kSweepsToNewton;
+}
+
+// Whether any contact has an impulse in the guess.
+bool IslandSolver::has_warm_start() const {
+  return std::ranges::any_of(island_.constraints(), [&](int i) {
+    const ImpulseConstraint& c = island_.constraint(i);
+    return c.law == ConstraintType::coulomb_cone && c.p[0] > 0;
+  });
+}
+
+// Phases until the residual is accepted. Sets the best p and returns its residual.
+double IslandSolver::run_phases(bool full, ImpulseReport& report) {
+  guess_p_.resize(island_.p.size()), swept_p_.resize(island_.p.size());
+  const bool small = island_.is_small();
+  for (const int i : island_.constraints()) guess_p_[i] = island_.constraint(i).p;
+  if (small && has_warm_start()) {
+    island_.keep_best(newton_.solve_near(report));
+    if (is_solved()) return island_.best;
+    island_.apply_impulses(guess_p_);
+  }
+  if (small || (is_exact() && island_.has_budget(kAmple * matrix_.work()))) {
+    newton_.solve(small ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
+  } else {
+    const bool interior_follows = island_.has_budget(kInterior * matrix_.work());
+    const double first =
+        std::max(kFirstSweeps, kSweepsPerNewton * matrix_.work() / island_.sweep_work);
+    run_sweeps(interior_follows ? first : std::numeric_limits<double>::infinity(), report);
+    if (!interior_follows) return island_.apply_impulses(island_.best_p);
+  }
+  if (is_solved()) return island_.best;
+  report.interior = std::max(report.interior, interior_.solve());
+  island_.keep_best(island_.apply_impulses());
+  if (!is_solved()) newton_.solve(small ? kMaxNewton : kLargeNewton, kFirstRho, report);
+  if (full && !is_solved()) try_other_starts(report);
+  if (!is_solved()) {  // no solution found, or none there (Painleve): a small residual
+    island_.apply_impulses(island_.best_p);
+    run_sweeps(kFirstSweeps, report);
+  }
+  return island_.apply_impulses(island_.best_p);
+}
+
+void IslandSolver::try_other_starts(ImpulseReport& report) {
+  const auto goes_on = [&] { return !is_solved() && island_.has_budget(); };
+  const bool small = island_.is_small();
+  const auto from_path = [&](int start, int max_steps) {
+    report.path = std::max(report.path, interior_.follow_path(start));
+    island_.keep_best(island_.apply_impulses());
+    if (!is_solved()) newton_.solve(max_steps, kFirstRho, report);
+  };
+  if (!small) from_path(0, kLargeNewton);
+  // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
+  // leads to jamming even if a small gap excludes it: also iterate from the guess.
+  for (const double rho : {kFirstRho, kLargeRho}) {
+    if (!goes_on()) break;
+    island_.apply_impulses(guess_p_);
+    newton_.solve(kMaxNewton, rho, report);
+  }
+  for (int start = small ? 0 : 1; start < InteriorPhase::kStarts && goes_on(); ++start)
+    from_path(start, kMaxNewton);
+  // Restarts from the best p while the residual decreases.
+  for (double before = 0; goes_on() && (before == 0 || island_.best < 0.5 * before);) {
+    before = island_.best;
+    island_.apply_impulses(island_.best_p);
+    newton_.solve(kRestartFactor * kMaxNewton, kFirstRho, report);
+  }
+}
+
+// From p of the constraints.
+void IslandSolver::run_sweeps(double max_sweeps, ImpulseReport& report) {
+  sweeps_.start(island_);
+  bool try_newton = is_exact();
+  int sweeps = 0;
+  for (; sweeps < max_sweeps && island_.has_budget() && !is_solved(); ++sweeps) {
+    const double change = sweeps_.sweep();
+    island_.work += island_.sweep_work;
+    const bool ends =
+        try_newton && change <= kSweepsToNewton && island_.has_budget(2 * matrix_.work());
+    if (!ends && change > island_.wanted.accepted) continue;
+    island_.keep_best(island_.apply_impulses());
+    if (!ends || is_solved()) continue;
+    try_newton = false;
+    for (const int i : island_.constraints()) swept_p_[i] = island_.constraint(i).p;
+    island_.keep_best(newton_.solve_near(report));
+    if (!is_solved()) island_.apply_impulses(swept_p_);
+  }
+  report.sweeps = std::max(report.sweeps, sweeps);
+  if (!is_solved()) island_.keep_best(island_.apply_impulses());
+}
+
+}  // namespace twinarm
