@@ -4,7 +4,8 @@
 // which is zero where r obeys Coulomb's law. K: the cones |r_t| <= mu r_n; P_K: the projection.
 //
 // ImpulseSolver takes M and J with W = J M^-1 J^T. Here M = 1, and J is a factor of W by its
-// eigenvectors, for each set of contacts that W couples.
+// eigenvectors, for each set of contacts that W couples. Of a W with negative eigenvalues (rounding
+// in the file) the difference to J J^T is added to q, at the r of the last solution.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -90,7 +91,7 @@ Eigen::VectorX<Index> coupled_sets(const FrictionProblem& problem) {
 MatrixXd factor_of(const MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
   const VectorXd& values = eigen.eigenvalues();  // ascending
-  const double rounding = 1e-13 * values.maxCoeff() * static_cast<double>(A.rows());
+  const double rounding = 1e-14 * values.maxCoeff();
   Index dropped = 0;
   while (dropped < A.rows() - 1 && values[dropped] < rounding) ++dropped;
   const Index rank = A.rows() - dropped;
@@ -123,10 +124,8 @@ ImpulseProblem impulse_problem_of(const FrictionProblem& problem) {
     ImpulseConstraint& law =
         made.add(ConstraintType::coulomb_cone, 3, tree[c], ImpulseConstraint::no_tree);
     law.mu = problem.mu[at];
-    for (Index row = 0; row < 3; ++row) {
-      law.b[static_cast<std::size_t>(row)] = problem.q[3 * at + row];
+    for (Index row = 0; row < 3; ++row)
       for (Index k = 0; k < J[c].cols(); ++k) made.J(law, 0)[row * J[c].cols() + k] = J[c](row, k);
-    }
   }
   return made;
 }
@@ -153,26 +152,59 @@ double natural_map(const FrictionProblem& problem, const VectorXd& r) {
   return std::sqrt(sum) / problem.q.norm();
 }
 
+VectorXd impulses_of(const ImpulseProblem& impulses) {
+  VectorXd r(3 * static_cast<Index>(impulses.constraints().size()));
+  for (Index c = 0; 3 * c < r.size(); ++c)
+    r.segment<3>(3 * c) =
+        Eigen::Map<const Vector3d>(impulses.constraints()[static_cast<std::size_t>(c)].p.data());
+  return r;
+}
+
+void set_bias(ImpulseProblem& impulses, const VectorXd& q) {
+  for (std::size_t c = 0; c < impulses.constraints().size(); ++c)
+    Eigen::Map<Vector3d>(impulses.constraints()[c].b.data()) =
+        q.segment<3>(3 * static_cast<Index>(c));
+}
+
+// Returns r.
+VectorXd solve_once(const FrictionProblem& problem, ImpulseProblem& impulses,
+                    ImpulseReport& report) {
+  constexpr int kMaxCorrections = 3;
+  constexpr double kGoodError = 1e-9;
+  ImpulseSolver solver;           // without what an earlier solution has left
+  solver.accuracy.budget = 1e12;  // exact, however long it takes
+  for (ImpulseConstraint& c : impulses.constraints()) c.p = {}, c.u = {};
+  set_bias(impulses, problem.q);
+  report = solver.solve(impulses);
+  VectorXd r = impulses_of(impulses);
+  for (int k = 0; k < kMaxCorrections && natural_map(problem, r) > kGoodError; ++k) {
+    VectorXd Wr(r.size());  // by the factors
+    for (std::size_t c = 0; c < impulses.constraints().size(); ++c) {
+      const ImpulseConstraint& law = impulses.constraints()[c];
+      Wr.segment<3>(3 * static_cast<Index>(c)) =
+          Eigen::Map<const Vector3d>(law.u.data()) - Eigen::Map<const Vector3d>(law.b.data());
+    }
+    set_bias(impulses, problem.q + problem.W * r - Wr);
+    report.add(solver.solve(impulses));
+    r = impulses_of(impulses);
+  }
+  return r;
+}
+
 void solve(const FrictionProblem& problem) {
   constexpr int kMaxRepeats = 10;
   constexpr double kMaxSeconds = 0.5;
   ImpulseProblem impulses = impulse_problem_of(problem);
   ImpulseReport report;
+  VectorXd r;
   double shortest = HUGE_VAL, spent = 0;
   for (int n = 0; n < kMaxRepeats && spent < kMaxSeconds; ++n) {
-    for (ImpulseConstraint& c : impulses.constraints()) c.p = {}, c.u = {};
-    ImpulseSolver solver;  // without what an earlier solution has left
-    solver.budget = 1e12;  // exact, however long it takes
     const auto start = std::chrono::steady_clock::now();
-    report = solver.solve(impulses);
+    r = solve_once(problem, impulses, report);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     spent += time.count();
     shortest = std::min(shortest, time.count());
   }
-  VectorXd r(problem.q.size());
-  for (Index c = 0; c < problem.contacts(); ++c)
-    r.segment<3>(3 * c) =
-        Eigen::Map<const Vector3d>(impulses.constraints()[static_cast<std::size_t>(c)].p.data());
   std::printf(
       "{\"contacts\": %d, \"error\": %.3e, \"law\": %.3e, \"converged\": %s, \"ms\": %.4f, "
       "\"newton\": %d, \"interior\": %d, \"path\": %d}\n",
