@@ -83,9 +83,11 @@ def bodies_of(scene):
             continue
         m = body["mass"]
         inertia = body.get("inertia")
-        bodies[body["name"]] = (m, tuple(body.get("com", (0, 0, 0))),
-                                symmetric(*inertia) if inertia else
-                                inertia_of_shape(body["shape"], m))
+        solid = (m, tuple(body.get("com", (0, 0, 0))),
+                 symmetric(*inertia) if inertia else inertia_of_shape(body["shape"], m))
+        copies = math.prod(body.get("copies", {}).get("count", [1]))
+        names = [body["name"]] if copies == 1 else [f"{body['name']}{i + 1}" for i in range(copies)]
+        bodies.update(dict.fromkeys(names, solid))
     return bodies
 
 

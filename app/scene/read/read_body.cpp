@@ -1,4 +1,6 @@
 // Bodies with their shapes: primitives (collision/shapes/shape.h) and meshes.
+#include <cstdint>
+
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
@@ -73,6 +75,40 @@ void read_appearance(SceneReader& reader, TableReader& table, BodyDescription& b
     table.fault("texture", "a half-space has no texture", "leave it out", "scene.key-useless");
 }
 
+// Places of a body and its copies, relative to its own: copies = { count, spacing, scatter }, a
+// grid whose places are shifted by up to `scatter` in each direction, by numbers that only depend
+// on the place's index.
+std::vector<Vector3> read_copies(SceneReader& reader, TableReader& table) {
+  constexpr double kMaxCopies = 10000;
+  const Value* given = table.table("copies");
+  if (!given) return {Vector3::Zero()};
+  TableReader grid = reader.open(*given, table.where() + ", copies");
+  grid.missing("count", "give count = [x, y, z], the numbers of copies");
+  grid.missing("spacing", "give spacing = [x, y, z] in metres");
+  const Vector3 count = grid.vector("count").value_or(Vector3::Ones());
+  const Vector3 spacing = grid.vector("spacing").value_or(Vector3::Zero());
+  const double scatter = grid.number("scatter").value_or(0);
+  grid.done();
+  if (!(count.minCoeff() >= 1 && count.prod() <= kMaxCopies) ||
+      count != count.array().floor().matrix()) {
+    grid.fault("count", "must be whole numbers from 1, with a product up to 10000", "",
+               "scene.range");
+    return {Vector3::Zero()};
+  }
+  std::uint64_t random = 1;
+  const auto shift = [&] {  // linear congruential generator of Knuth's MMIX
+    random = random * 6364136223846793005U + 1442695040888963407U;
+    return scatter * (2 * static_cast<double>(random >> 11) * 0x1p-53 - 1);
+  };
+  std::vector<Vector3> places;
+  for (int z = 0; z < count[2]; ++z)
+    for (int y = 0; y < count[1]; ++y)
+      for (int x = 0; x < count[0]; ++x)
+        places.push_back(spacing.cwiseProduct(Vector3(x, y, z)) +
+                         Vector3{shift(), shift(), shift()});
+  return places;
+}
+
 }  // namespace
 
 std::optional<BodyMotion> SceneReader::read_motion(TableReader& table) {
@@ -115,8 +151,17 @@ void SceneReader::read_body(const Value& value) {
       table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "",
                   "scene.range");
   }
+  const std::vector<Vector3> places = read_copies(*this, table);
   table.done();
-  scene.bodies.push_back(std::move(body));
+  const BodyDescription first = body;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places.size() > 1) body.name = first.name + std::to_string(i + 1);
+    if (places.size() > 1 && !taken_names.emplace("body", body.name).second)
+      table.fault("copies", "the name '" + body.name + "' is already used",
+                  "rename one of the bodies", "scene.name-taken");
+    body.X_WB.p = first.X_WB.p + places[i];
+    scene.bodies.push_back(body);
+  }
 }
 
 namespace {
