@@ -11,8 +11,8 @@ namespace twinarm {
 class FclContact {
  public:
   enum class Answer {
-    none,      // for a half-space, a cavity or a mesh
-    rejected,  // FCL's depth and overlap(n) of its normal differ, or FCL failed
+    none,      // not for FCL: a half-space, a cavity or a mesh
+    rejected,  // too deep for FCL, or its depth and overlap(n) of its normal differ
     apart,     // by more than the margin
     contact,
   };
@@ -22,7 +22,7 @@ class FclContact {
   // Of geometries a and b (in the order of add()). `contact`: FCL's normal, and overlap(n) along
   // it, at least -margin.
   virtual Answer nearest(int a, int b, const PosedShape& at_a, const PosedShape& at_b,
-                         double margin, NearestPair& pair) noexcept = 0;
+                         double margin, NearestPair& pair) = 0;
 };
 
 }  // namespace twinarm
