@@ -127,8 +127,8 @@ SimulateResult SteppedRun::finish() {
   if (const auto use = contacts_ ? contacts_->fcl_use() : CollisionWorld::FclUse();
       use.rejected > 0)
     warn(
-        fmt::format("in {} of {} queries FCL's depth and normal were inconsistent; detection = "
-                    "\"own\" answered them (docs/understand/narrow_phases.md)",
+        fmt::format("detection = \"own\" answered {} of {} queries of pairs, too deep for FCL or "
+                    "inconsistent (docs/understand/narrow_phases.md)",
                     use.rejected, use.queries));
   result_.energy_balance = energy_balance();
   if (!result_.post_mortem && std::ranges::any_of(result_.energy_balance, [](const EnergyRow& row) {

@@ -19,7 +19,8 @@ ContactScene on_plate(double slope, double friction) {
   ContactScene scene;
   scene.by_fcl = true;
   scene.set_gravity(Vector3(g * std::sin(slope), 0, -g * std::cos(slope)));
-  scene.obstacle(Box{{20, 2, 0.2}}, rough_surface(friction, 1), {Matrix3::Identity(), {0, 0, -0.1}});
+  scene.obstacle(Box{{20, 2, 0.2}}, rough_surface(friction, 1),
+                 {Matrix3::Identity(), {0, 0, -0.1}});
   return scene;
 }
 
@@ -39,10 +40,10 @@ TEST_CASE("FCL: a stack of boxes, cylinders and hulls stands for 3 s") {
   ContactScene scene = on_plate(0, 0.5);
   std::vector<int> bodies;
   for (const Shape& shape : {box, box, drum, box, cube, drum})
-    bodies.push_back(scene.body(
-        shape, 2, rough_surface(0.5, 0),
-        {.p = {0, 0, 0.05 + 0.1 * static_cast<double>(bodies.size())},
-         .R = turned(0.3 * static_cast<double>(bodies.size()), Vector3::UnitZ())}));
+    bodies.push_back(
+        scene.body(shape, 2, rough_surface(0.5, 0),
+                   {.p = {0, 0, 0.05 + 0.1 * static_cast<double>(bodies.size())},
+                    .R = turned(0.3 * static_cast<double>(bodies.size()), Vector3::UnitZ())}));
   scene.begin();
   scene.run(kStep, 3000);
   double height = 0.05;
@@ -78,7 +79,8 @@ TEST_CASE("FCL: a box on a slope rests below the friction angle and slides above
   for (const double friction : {0.6, 0.5}) {
     CAPTURE(friction);
     ContactScene scene = on_plate(slope, friction);
-    const int body = scene.body(Box{{0.2, 0.2, 0.1}}, 2, rough_surface(friction, 0), {.p = {0, 0, 0.05}});
+    const int body =
+        scene.body(Box{{0.2, 0.2, 0.1}}, 2, rough_surface(friction, 0), {.p = {0, 0, 0.05}});
     scene.begin();
     scene.run(kStep, static_cast<int>(t / kStep));
     const double a = std::max(0.0, g * (std::sin(slope) - friction * std::cos(slope)));

@@ -16,14 +16,14 @@ using namespace twinarm::test;
 
 namespace {
 
-constexpr double kNear = 0.01;    // margin [m]
-constexpr double kRound = 1e-6;   // error of depth with a sphere or capsule [m]
+constexpr double kNear = 0.01;     // margin [m]
+constexpr double kRound = 1e-6;    // error of depth with a sphere or capsule [m]
 constexpr double kEdges = 1.5e-3;  // of others: 2 m (sqrt(3) - 1), two corners rounded by m = 1 mm
 
 std::vector<Shape> shapes_of_fcl() {
   Random random(7);
-  return {Sphere{0.06},           Box{{0.2, 0.14, 0.1}},       Capsule{0.05, 0.2},
-          Cylinder{0.06, 0.15},   Ellipsoid{{0.11, 0.05, 0.07}}, random_hull(random)};
+  return {Sphere{0.06},         Box{{0.2, 0.14, 0.1}},         Capsule{0.05, 0.2},
+          Cylinder{0.06, 0.15}, Ellipsoid{{0.11, 0.05, 0.07}}, random_hull(random)};
 }
 
 bool has_radius(const Shape& s) {
@@ -52,10 +52,11 @@ void for_fcl_pairs(Visit visit) {
 }
 
 bool are_equal(const std::vector<Contact>& x, const std::vector<Contact>& y, double tolerance) {
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [&](const Contact& p, const Contact& q) {
-    return p.feature == q.feature && std::abs(p.depth - q.depth) <= tolerance &&
-           (p.p_WC - q.p_WC).norm() <= tolerance && (p.n_W - q.n_W).norm() <= tolerance;
-  });
+  return std::equal(
+      x.begin(), x.end(), y.begin(), y.end(), [&](const Contact& p, const Contact& q) {
+        return p.feature == q.feature && std::abs(p.depth - q.depth) <= tolerance &&
+               (p.p_WC - q.p_WC).norm() <= tolerance && (p.n_W - q.n_W).norm() <= tolerance;
+      });
 }
 
 }  // namespace
@@ -152,8 +153,9 @@ TEST_CASE("FCL: faces on faces have the contact points and features of our narro
 TEST_CASE("FCL: half-spaces, cavities and meshes have our contacts, bit by bit") {
   const Shape ball = Sphere{0.1}, box = Box{{0.2, 0.2, 0.2}};
   Random random(71);
-  for (const Shape& wall : {Shape(HalfSpace{}), Shape(SphericalCavity{0.3}),
-                            Shape(CylindricalCavity{0.3, 2}), Shape(MeshShape{box_mesh({1, 1, 1})})})
+  for (const Shape& wall :
+       {Shape(HalfSpace{}), Shape(SphericalCavity{0.3}), Shape(CylindricalCavity{0.3, 2}),
+        Shape(MeshShape{box_mesh({1, 1, 1})})})
     for (const Shape& body : {ball, box}) {
       CAPTURE(shape_name(wall));
       FclScene fcl(wall, body);

@@ -32,8 +32,12 @@ std::vector<Shape> shapes_of_table() {
     for (const double j : {-0.081, 0.081})
       for (const Vector3& v : {Vector3(0, i, j), Vector3(i, j, 0), Vector3(j, 0, i)})
         icosahedron.push_back(v);
-  return {Sphere{0.06},        Capsule{0.05, 0.2},       Box{{0.2, 0.14, 0.1}},
-          Cylinder{0.06, 0.15}, Ellipsoid{{0.11, 0.05, 0.07}}, convex_hull(icosahedron)};
+  return {Sphere{0.06},
+          Capsule{0.05, 0.2},
+          Box{{0.2, 0.14, 0.1}},
+          Cylinder{0.06, 0.15},
+          Ellipsoid{{0.11, 0.05, 0.07}},
+          convex_hull(icosahedron)};
 }
 
 // In random directions and rotations, moved along the normal to a depth of the range.
@@ -54,7 +58,7 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Of one detection with contact points, the median of nine in turn [us].
+// Of one detection with contact points, the median of nine in turn [us]
 std::array<double, 2> times(const std::vector<std::array<Pose, 2>>& poses, PairScene& own,
                             PairScene& fcl) {
   std::array<std::array<double, 9>, 2> all{};
@@ -91,10 +95,12 @@ Row measure(const Shape& a, const Shape& b, const Depths& range, std::size_t cou
     row.normal = std::max(row.normal, (fcl.deepest().n_W - own.deepest().n_W).norm());
   }
   if (!prints) return row;
+  poses.resize(count / 4);
   const auto [t_own, t_fcl] = times(poses, own, fcl);
   std::printf("| %s, %s | %.3g %% | %.1e | %.1e | %.2g | %.2g |\n", shape_name(a).c_str(),
-              shape_name(b).c_str(), 100.0 * static_cast<double>(row.answered) / static_cast<double>(count),
-              row.depth, row.normal, t_own, t_fcl);
+              shape_name(b).c_str(),
+              100.0 * static_cast<double>(row.answered) / static_cast<double>(count), row.depth,
+              row.normal, t_own, t_fcl);
   return row;
 }
 
