@@ -55,7 +55,7 @@ bool are_equal(const std::vector<Contact>& x, const std::vector<Contact>& y, dou
   return std::equal(
       x.begin(), x.end(), y.begin(), y.end(), [&](const Contact& p, const Contact& q) {
         return p.feature == q.feature && std::abs(p.depth - q.depth) <= tolerance &&
-               (p.p_WC - q.p_WC).norm() <= tolerance && (p.n_W - q.n_W).norm() <= tolerance;
+               (p.p_WC - q.p_WC).norm() <= tolerance && (p.n_W - q.n_W).norm() <= 1e-6 * tolerance;
       });
 }
 
@@ -93,19 +93,22 @@ TEST_CASE("FCL: depths to 1.5 mm are exact for spheres and capsules, others have
   });
 }
 
-TEST_CASE("FCL: spheres and capsules have the normals of our narrow phase") {
+TEST_CASE("FCL: spheres and capsules have the normals, spheres the points, of our narrow phase") {
   for_fcl_pairs([](const Shape& a, const Shape& b, Random& random) {
     if (!has_radius(a) && !has_radius(b)) return;
     FclScene fcl(a, b);
     PairScene own(a, b, kNear);
-    double normal = 0;
+    const bool has_sphere = std::holds_alternative<Sphere>(a) || std::holds_alternative<Sphere>(b);
+    double normal = 0, place = 0;
     for (int k = 0; k < 300; ++k) {
       const Pose X_WA = random_pose(random);
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.02, 0.01));
       if (fcl.touch(X_WA, X_WB).empty() || own.touch(X_WA, X_WB).empty()) continue;
       normal = std::max(normal, (fcl.contacts[0].n_W - own.contacts[0].n_W).norm());
+      if (has_sphere) place = std::max(place, (fcl.contacts[0].p_WC - own.contacts[0].p_WC).norm());
     }
     CHECK(normal < 5e-3);
+    CHECK(place < 3e-4);
     CHECK(fcl.use().rejected == 0);
   });
 }
@@ -173,7 +176,28 @@ TEST_CASE("FCL: half-spaces, cavities and meshes have our contacts, bit by bit")
     }
 }
 
-TEST_CASE("FCL: an inconsistent penetration is counted, and replaced by our contacts") {
+TEST_CASE("FCL: at the edge of a knife, whose core ends far inside, answers are rejected") {
+  const std::vector<Vector3> knife{{0.1, 0.1, 0.005},   {0.1, -0.1, 0.005}, {0.1, 0.1, -0.005},
+                                   {0.1, -0.1, -0.005}, {-0.1, 0.1, 0},     {-0.1, -0.1, 0}};
+  const Shape a = convex_hull(knife), b = Box{{0.2, 0.14, 0.1}};
+  FclScene fcl(a, b);
+  Random random(79);
+  double shallower = 0, deeper = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Pose X_WA{turn(random.uniform(-0.5, 0.5), random.direction()), Vector3::Zero()};
+    const Pose X_WB{turn(random.uniform(-0.5, 0.5), random.direction()),
+                    {-0.2 + random.uniform(-2e-3, 2e-3), 0, random.uniform(-0.06, 0.06)}};
+    if (fcl.touch(X_WA, X_WB).empty()) continue;
+    const double truth = -oracle_distance(a, X_WA, b, X_WB);
+    shallower = std::max(shallower, truth - fcl.depth());
+    deeper = std::max(deeper, fcl.depth() - truth);
+  }
+  CHECK(shallower < 1e-8);
+  CHECK(deeper < 2e-3);
+  CHECK(fcl.use().rejected > 20);
+}
+
+TEST_CASE("FCL: deeper than the margins, queries are counted and have our contacts") {
   const Shape a = Cylinder{0.06, 0.15}, b = Ellipsoid{{0.11, 0.05, 0.07}};
   FclScene fcl(a, b);
   PairScene own(a, b, kNear);
