@@ -37,6 +37,7 @@ void write_pairs(JsonWriter& json, const RecordingHeader& header, const FilmedRu
     fact("contact", header.run.contact.empty()
                         ? kContactModes[static_cast<std::size_t>(scene->description.contact)]
                         : header.run.contact);
+  if (scene && scene->description.detection == Detection::fcl) fact("detection", "fcl");
   fact("seed", std::to_string(header.seed));
   fact("twinarm", header.program);
   fact("recorded frames", std::to_string(run.recording->size()));

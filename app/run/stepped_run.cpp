@@ -124,6 +124,12 @@ SimulateResult SteppedRun::finish() {
         "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
         "step is first-order accurate; give --contact rigid, or a shorter --step",
         unlocated_, result_.steps, EventStep::kMaxLaws));
+  if (const auto use = contacts_ ? contacts_->fcl_use() : CollisionWorld::FclUse();
+      use.rejected > 0)
+    warn(
+        fmt::format("detection = \"own\" answered {} of {} queries of pairs, too deep for FCL or "
+                    "inconsistent (docs/understand/narrow_phases.md)",
+                    use.rejected, use.queries));
   result_.energy_balance = energy_balance();
   if (!result_.post_mortem && std::ranges::any_of(result_.energy_balance, [](const EnergyRow& row) {
         return !std::isfinite(row.work);

@@ -30,6 +30,7 @@ class ContactBodies {
   }
 
   CollisionWorld& world() { return world_; }
+  const CollisionWorld& world() const { return world_; }
   const ContactGeometry& geometry(int id) const {
     return geometries_[static_cast<std::size_t>(id)];
   }

@@ -44,6 +44,7 @@ int CollisionWorld::add(Geometry geometry) {
     if (!is_supported(geometries_.back().shape, geometries_.back().shape))
       for (int other = 0; other < id; ++other) check_pair(other, id);
     solids_.emplace_back(geometries_.back().shape);
+    if (fcl_) fcl_->add(geometries_.back().shape);
   } catch (...) {
     geometries_.pop_back();
     throw;
@@ -129,9 +130,28 @@ NarrowPhase::Result CollisionWorld::narrow(const PosedShape& a, const PosedShape
   return {Vector3::Zero(), &points_};
 }
 
+void CollisionWorld::use_fcl() {
+  fcl_.reset(twinarm_fcl_contact());
+  for (const Geometry& geometry : geometries_) fcl_->add(geometry.shape);
+}
+
+NarrowPhase::Result CollisionWorld::narrow_by_fcl(int a, int b, std::span<const Pose> X_WG,
+                                                  double margin) {
+  using Answer = FclContact::Answer;
+  const PosedShape at_a{solids_[a], X_WG[a]}, at_b{solids_[b], X_WG[b]};
+  NearestPair pair;
+  const Answer answer = fcl_->nearest(a, b, at_a, at_b, margin, pair);
+  fcl_use_.queries += answer != Answer::none;
+  fcl_use_.rejected += answer == Answer::rejected;
+  if (answer == Answer::apart) return {};
+  if (answer == Answer::contact) return narrow_phase_.contacts(at_a, at_b, pair, margin);
+  return narrow(at_a, at_b, margin);
+}
+
 void CollisionWorld::collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                                   std::vector<Contact>& out) {
-  const auto result = narrow({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
+  const auto result = fcl_ ? narrow_by_fcl(a, b, X_WG, margin)
+                           : narrow({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
   if (result.empty()) return;
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(out.size());
   for (const ManifoldPoint& point : *result.points) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/detection/fcl_box_tree.h"
+#include "collision/detection/fcl_contact.h"
 #include "collision/detection/mesh_contact.h"
 #include "collision/narrow_phase/gjk.h"
 #include "collision/narrow_phase/narrow_phase.h"
@@ -54,6 +55,14 @@ class CollisionWorld {
   }
   bool may_collide(int a, int b) const;
 
+  // Normals by FCL where it has an algorithm (fcl_contact.h), from now on. detect() then allocates.
+  void use_fcl();
+  struct FclUse {
+    std::size_t queries = 0;   // of pairs that FCL can answer
+    std::size_t rejected = 0;  // answers that were inconsistent: our own narrow phase answered
+  };
+  const FclUse& fcl_use() const { return fcl_use_; }
+
   // Contacts with depth > -(margin_a + margin_b) at the poses X_WG[id], ordered by (a, b, feature);
   // a function of the poses only. None for a geometry whose pose is not finite. With margins as
   // large as the displacement until the next detection nothing passes through a wall.
@@ -70,6 +79,7 @@ class CollisionWorld {
   void find_overlaps();
   void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
   NarrowPhase::Result narrow(const PosedShape& a, const PosedShape& b, double margin);
+  NarrowPhase::Result narrow_by_fcl(int a, int b, std::span<const Pose> X_WG, double margin);
   void collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                     std::vector<Contact>& out);
 
@@ -79,6 +89,8 @@ class CollisionWorld {
   std::vector<double> margins_;    // of detect() with one margin
   std::unique_ptr<BoxTree> tree_;  // of many boxes; null until it is needed
   NarrowPhase narrow_phase_;
+  std::unique_ptr<FclContact> fcl_;  // null unless it is used
+  FclUse fcl_use_;
   MeshContact mesh_contact_;
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box
   std::vector<Aabb> boxes_;                 // of bounded_

@@ -1,4 +1,4 @@
-// The only file that includes FCL.
+// FCL's broad phase; its narrow phase: fcl_contact.cpp. No other file includes FCL.
 #include "collision/detection/fcl_box_tree.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>

@@ -85,7 +85,7 @@ NarrowPhase::Result NarrowPhase::contacts(const PosedShape& a, const PosedShape&
       return {flat.n_W, &manifold_.points(flat, margin)};
     if (!nearest(a, b, margin, pair)) return {};
   }
-  return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
+  return contacts(a, b, pair, margin);
 }
 
 double NarrowPhase::distance(const PosedShape& a, const PosedShape& b) {

@@ -25,6 +25,11 @@ class NarrowPhase {
     bool empty() const { return points == nullptr || points->empty(); }
   };
   Result contacts(const PosedShape& a, const PosedShape& b, double margin);
+  // The same along a known direction.
+  Result contacts(const PosedShape& a, const PosedShape& b, const NearestPair& pair,
+                  double margin) {
+    return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
+  }
 
   // Signed distance; negative: penetration depth [m].
   double distance(const PosedShape& a, const PosedShape& b);

@@ -30,6 +30,13 @@ class Recordings(RecordingCommand):
             frames = self.exported(file)["frames"]
             self.assertTrue(any(f["contacts"] for f in frames), contact)
 
+    def test_detection_by_fcl_goes_on_with_the_same_bits(self):
+        by_fcl = self.record('detection = "fcl"\n' + BOXES, "--duration", 0.5)
+        self.goes_on_with_the_same_bits(by_fcl, (0, 0.1, 0.3))
+        frames = self.exported(by_fcl)["frames"]
+        self.assertTrue(any(f["contacts"] for f in frames))
+        self.assertNotEqual(frames, self.exported(self.record(BOXES, "--duration", 0.5))["frames"])
+
     def test_every_scene_of_the_assets_goes_on_with_the_same_bits(self):
         """Loops, hard contacts with guesses of impulses, couplings, driven bodies."""
         short = {"pyramid": 0.012, "spinning_coin": 0.01, "rattleback": 0.01}

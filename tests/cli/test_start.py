@@ -43,6 +43,11 @@ class Start(ProgramTest):
             for k in range(65)))
         self.assertLess({"libfcl", "libccd"}, self.loaded("simulate", scene, "--duration", 0.001))
 
+    def test_the_narrow_phase_of_fcl_is_loaded_by_scenes_that_choose_it(self):
+        two = ("simulate", SCENES / "box_stack.toml", "--duration", 0.001)
+        self.assertFalse(self.loaded(*two) & {"libfcl", "libccd"})
+        self.assertLess({"libfcl", "libccd"}, self.loaded(*two, "--set", "detection=fcl"))
+
     def test_pictures_are_drawn_by_osmesa(self):
         self.assertIn("libOSMesa", self.loaded("render", SCENES / "incline.toml", "--png", self.folder / "a.png",
                                                "--size", "32x24"))

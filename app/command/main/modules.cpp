@@ -6,6 +6,7 @@
 #include <string>
 
 #include "collision/detection/fcl_box_tree.h"
+#include "collision/detection/fcl_contact.h"
 #include "collision/mesh_files/assimp_reader.h"
 #include "solver/support/diagnostics.h"
 
@@ -35,5 +36,11 @@ twinarm::ChildWork twinarm_assimp_reader() {
 twinarm::BoxTree* twinarm_fcl_box_tree() {
   static const auto function = twinarm::function_of<decltype(twinarm_fcl_box_tree)>(
       "twinarm_fcl.so", "twinarm_fcl_box_tree");
+  return function();
+}
+
+twinarm::FclContact* twinarm_fcl_contact() {
+  static const auto function =
+      twinarm::function_of<decltype(twinarm_fcl_contact)>("twinarm_fcl.so", "twinarm_fcl_contact");
   return function();
 }

@@ -125,6 +125,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
 }
 
 void SceneContacts::add_geometries() {
+  if (scene_.description.detection == Detection::fcl) contacts_->bodies().world().use_fcl();
   std::vector<Shape> shapes = collision_shapes(scene_);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const SceneGeometry& g = scene_.geometries[k];

@@ -40,6 +40,10 @@ class SceneContacts {
   const std::string& deepest_pair() const { return deepest_pair_; }
   // Of the last step; null if the scene has none (limits() may also be empty).
   const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
+  // Of the whole run; no queries unless the scene gives detection = "fcl".
+  CollisionWorld::FclUse fcl_use() const {
+    return contacts_ ? contacts_->bodies().world().fcl_use() : CollisionWorld::FclUse();
+  }
   const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
   // Whether the last step (side steps included) corrected positions of joint limits only.
   bool only_limits_were_passed() const {

@@ -61,6 +61,8 @@ void SceneReader::read(const Value& root) {
   scene.budget = table.positive("budget").value_or(scene.budget);
   if (const auto law = table.choice("contact", kContactModes))
     scene.contact = static_cast<ContactMode>(*law);
+  if (const auto detection = table.choice("detection", kDetections))
+    scene.detection = static_cast<Detection>(*detection);
   if (const auto chosen = table.choice("integrator", names_of(all_integrators)))
     scene.integrator = all_integrators[*chosen].integrator;
 

@@ -147,11 +147,16 @@ struct ConstraintDescription {
 enum class ContactMode { rigid, compliant, event };
 inline const std::vector<std::string> kContactModes{"rigid", "compliant", "event"};
 
+// Algorithm of the narrow phase.
+enum class Detection { own, fcl };
+inline const std::vector<std::string> kDetections{"own", "fcl"};
+
 struct SceneDescription {
   std::filesystem::path file;
   Vector3 gravity{0, 0, -9.81};
   double step = 0.001;  // [s]
   ContactMode contact = ContactMode::rigid;
+  Detection detection = Detection::own;
   double accuracy = 5e-9;  // of contact impulses: residual of the laws [m/s]
   double budget = 0;       // of contact impulses: operations per simulated second [1/s]; 0: none
   std::optional<Integrator> integrator;

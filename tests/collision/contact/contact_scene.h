@@ -57,6 +57,7 @@ class ContactScene {
     }
     simulation_ = std::make_unique<Simulation>(*model_, x, options);
     contacts_ = std::make_unique<ContactConstraints>(*model_, response_);
+    if (by_fcl) contacts_->bodies().world().use_fcl();
     for (const ContactGeometry& piece : pieces_) contacts_->bodies().add(piece);
     simulation_->add(*contacts_);
     return *simulation_;
@@ -78,6 +79,8 @@ class ContactScene {
            potential_energy(*model_, simulation_->state());
   }
   const ConstraintReport& report() const { return simulation_->constraints().report(); }
+
+  bool by_fcl = false;  // set before begin()
 
  private:
   ContactResponse response_;

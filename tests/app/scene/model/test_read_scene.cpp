@@ -11,6 +11,7 @@ TEST_CASE("scene: optional keys have their defaults") {
   CHECK(scene.gravity == Vector3(0, 0, -9.81));
   CHECK(scene.step == 0.001);
   CHECK(scene.contact == ContactMode::rigid);
+  CHECK(scene.detection == Detection::own);
   CHECK(!scene.integrator);
   CHECK(!scene.duration);
   REQUIRE(scene.bodies.size() == 1);
