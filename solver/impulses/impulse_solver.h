@@ -95,6 +95,7 @@ class ImpulseSolver {
   bool has_warm_start() const;
   double warm_start_newton(ImpulseReport& report);
   double semismooth_newton_step(double residual);
+  bool is_exact_to_rounding() const { return good_guess < tolerance; }  // event-driven steps
   double refine_solution(double residual);
   void order();
   void count_work();

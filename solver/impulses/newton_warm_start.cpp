@@ -24,6 +24,12 @@ double limited_rho(const ImpulseConstraint& c, double rho) {
   return std::min(rho, 0.5 * (1 + c.mu * c.mu) * c.p[0] / c.u[0]);
 }
 
+// p -= D u
+void subtract_product(const Mat& D, const Vec& u, Vec& p) {
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t k = 0; k < 3; ++k) p[r] -= D[3 * r + k] * u[k];
+}
+
 }  // namespace
 
 // With rho of multipliers_. Returns the residual of the laws; `residual` if the gradient is zero.
@@ -31,15 +37,23 @@ double ImpulseSolver::semismooth_newton_step(double residual) {
   const Gradient now = gradient(DeSaxceShift::differentiated);
   if (!(now.squared > 0)) return residual;
   find_direction(false);
-  move(1);
-  gradient(DeSaxceShift::differentiated);
+  if (is_exact_to_rounding()) {  // p(u) + dp, without the rounding of rho (u + du)
+    for (const int i : island_->constraints) problem_->velocity(constraint(i), dv_.data(), du_[i]);
+    for (const int i : island_->constraints) subtract_product(D_[i], du_[i], p_[i]);
+    for (const CouplingBlock& b : coupling_blocks_) subtract_product(b.D, du_[b.by], p_[b.of]);
+  } else {
+    move(1);
+    gradient(DeSaxceShift::differentiated);
+  }
   return apply_impulses(p_);
 }
 
 // Whether any contact has an impulse in the guess.
 bool ImpulseSolver::has_warm_start() const {
   return std::ranges::any_of(island_->constraints, [&](int i) {
-    return constraint(i).law == ConstraintType::coulomb_cone && constraint(i).p[0] > 0;
+    const ConstraintType law = constraint(i).law;
+    return (law == ConstraintType::coulomb_cone && constraint(i).p[0] > 0) ||
+           (law == ConstraintType::bilateral && is_exact_to_rounding());
   });
 }
 

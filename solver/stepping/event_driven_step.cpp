@@ -156,21 +156,23 @@ double EventStep::locate_contact(double s, double gap_start, double gap_end) {
 
 // One first-order step over a located event.
 void EventStep::step_over_event(double s) {
-  is_solved_ = true;
-  modes_.clear();
   run_column(s, 1, ModeChange::accepted);
   set_state(values_, s);
 }
 
 // From start_ by s by extrapolation; m_ is set to the result, accepted or not.
 EventStep::Segment EventStep::integrate_segment(double s) {
-  modes_.clear();
-  is_solved_ = true;
+  for (EventSource* source : sources_) source->hold_sticking();
   table_.clear();
   for (int n = 1; n <= kColumns; ++n) {
-    if (!run_column(s, n, ModeChange::rejected))
-      return stops() ? Segment::stopped : Segment::mode_changed;
-    table_.add_row(values_);
+    if (run_column(s, n, ModeChange::rejected)) {
+      table_.add_row(values_);
+      continue;
+    }
+    if (stops()) return Segment::stopped;
+    if (!has_mode(EventSource::released)) return Segment::mode_changed;
+    table_.clear();
+    n = 0;  // again, with Coulomb's law
   }
   const std::size_t nv = m_->model().nv;
   size_.resize(nv);
@@ -192,6 +194,7 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
   const bool rejects = mode_change == ModeChange::rejected;
   const std::size_t nv = m_->model().nv;
   const double step = s / n;
+  if (n == 1) is_solved_ = true;
   m_->x = start_;
   if (m_->account) m_->account->start_segment();
   for (EventSource* source : sources_) source->restore_active_set();
@@ -211,9 +214,9 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
     modes_now_.clear();
     for (EventSource* source : sources_) source->append_modes(modes_now_);
     if (n == 1) modes_ = modes_now_;
-    const bool reverses =
-        std::count(modes_now_.begin(), modes_now_.end(), EventSource::ContactMode::reversing) > 0;
-    if (rejects && (reverses || modes_now_ != modes_)) return false;
+    if (rejects && (has_mode(EventSource::reversing) || has_mode(EventSource::released) ||
+                    modes_now_ != modes_))
+      return false;
   }
   values_ = theta_;
   values_.insert(values_.end(), m_->x.qd.begin(), m_->x.qd.end());

@@ -24,6 +24,7 @@
 // the predicted time of contact limits s, so that no contact is missed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -96,6 +97,7 @@ class EventStep {
   long solves_ = 0;             // constraint solutions in this step
   Interrupted interrupted_ = nullptr;
   bool is_interrupted_ = false;
+  bool has_mode(char mode) const { return std::ranges::count(modes_now_, mode) > 0; }
   std::vector<char> modes_, modes_now_;
 };
 
