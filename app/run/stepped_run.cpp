@@ -122,8 +122,10 @@ SimulateResult SteppedRun::finish() {
   if (unlocated_ > 0)
     warn(fmt::format(
         "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
-        "step is first-order accurate; give --contact rigid, or a shorter --step",
+        "step is first-order accurate; give --contact rigid, which does not locate events (a "
+        "shorter --step may locate them all, at the limit in each step)",
         unlocated_, result_.steps, EventStep::kMaxLaws));
+  warn(impact_normals_.warning());
   result_.energy_balance = energy_balance();
   if (!result_.post_mortem && std::ranges::any_of(result_.energy_balance, [](const EnergyRow& row) {
         return !std::isfinite(row.work);
@@ -198,6 +200,8 @@ bool SteppedRun::one_step(double t, double h_max) {
   const StepReport report = sim_.step(h_max, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
+  if (contacts_ && contacts_->contacts() && !plan_.locates_events)
+    impact_normals_.look(*contacts_->contacts(), report.h);
   const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
   if (!report.finite || !report.reached) {
     // Of the samples of this step only those at its start are valid.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/impact_normals.h"
 #include "app/run/run.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"
@@ -74,6 +75,7 @@ class SteppedRun {
   std::optional<MomentumBalance> momentum_;
   std::optional<EnergyAlarm> alarm_;
   std::optional<SceneContacts> contacts_;
+  ImpactNormals impact_normals_;      // since the run was resumed
   std::optional<Simulation> before_;  // the run at the start of the step
   std::optional<Simulation> copy_;    // of side_step()
   std::vector<State<double>> inner_;

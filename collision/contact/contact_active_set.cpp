@@ -78,7 +78,8 @@ void ContactActiveSet::read_smooth(ContactPoint& point, const ImpulseConstraint&
   if (point.is_separating) mode = separating;
   const std::size_t pair = pair_index(point);
   if (point.sticks) {
-    const bool holds = is_in_cone(point.force_W, point.contact.n_W, kSticks * point.friction);
+    const bool holds = is_in_cone(point.force_W, point.contact.n_W, kSticks * point.friction) &&
+                       std::hypot(c.u[0], c.u[1], c.u[2]) <= kMoves;  // else contradictory
     mode = holds ? sticking : released;
     released_[pair] = released_[pair] || !holds;
   }

@@ -47,10 +47,11 @@ void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h
   const double t_end = m_->x.t + h;
   if (length_ <= 0) length_ = h;
   report.substeps = 0;
-  solves_ = 0;
+  solves_ = 0, laws_ = 0;
   interrupted_ = interrupted, is_interrupted_ = false;
   for (double left = h; left > 1e-15 * h; left = t_end - m_->x.t) {
     const double s = smooth_segment(left, report);
+    report.iterations = solves_;
     if (s == 0) {
       restore_segment_start();
       report.interrupted = is_interrupted_;
@@ -77,6 +78,7 @@ void EventStep::restore_segment_start() {
 // The remainder as one step of fixed size; then a new active set.
 void EventStep::finish(double t_end, StepReport& report) {
   const bool is_converged = report.converged;
+  const int solved = report.iterations;
   constrained_->system().set_default_accuracy();
   constrained_->step(*m_, t_end - m_->x.t, report);
   m_->x.t = t_end;
@@ -84,6 +86,7 @@ void EventStep::finish(double t_end, StepReport& report) {
   constrained_->system().begin_step(*m_, 0);
   for (EventSource* source : sources_) source->set_active_set(frame(), true);
   report.converged = report.converged && is_converged;
+  report.iterations += solved;
   report.located = false;
   ++report.substeps;
 }
@@ -209,7 +212,8 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
     m_->update_kinematics();
     constrained_->system().begin_step(*m_, 0);
     constrained_->smooth_step(*m_, step);
-    solves_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
+    ++solves_;
+    laws_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
     is_solved_ = is_solved_ && constrained_->report().step.converged;
     modes_now_.clear();
     for (EventSource* source : sources_) source->append_modes(modes_now_);
