@@ -42,12 +42,12 @@ class ContactScene {
   }
   void floor(const ContactSurface& surface) { obstacle(HalfSpace{}, surface); }
 
-  // Turns about the z axis at w [rad/s], with the surface at z = 0. Add it after all bodies.
-  void turntable(double w, const ContactSurface& surface) {
+  // A half-space with prescribed motion. Add it after all bodies.
+  void table(const MotionFunction& motion, const ContactSurface& surface) {
     table_ =
         builder_.add_body("table", 0, "table", JointType::prescribed, {}, Vector3::UnitZ(), {});
     pieces_.push_back({"table", table_, {}, HalfSpace{}, surface, 0});
-    table_speed_ = w;
+    table_motion_ = motion;
   }
 
   // Call after adding all bodies.
@@ -64,13 +64,7 @@ class ContactScene {
       q[3] = turn.w();
     }
     simulation_ = std::make_unique<Simulation>(*model_, x, options);
-    if (table_ > 0)
-      simulation_->prescribe(table_, [w = table_speed_](double t) {
-        PrescribedMotion motion;
-        motion.X_JL.R = Eigen::AngleAxisd(w * t, Vector3::UnitZ()).toRotationMatrix();
-        motion.angular_velocity = w * Vector3::UnitZ();
-        return motion;
-      });
+    if (table_ > 0) simulation_->prescribe(table_, table_motion_);
     contacts_ = std::make_unique<ContactConstraints>(*model_, response_);
     for (const ContactGeometry& piece : pieces_) contacts_->bodies().add(piece);
     simulation_->add(*contacts_);
@@ -98,7 +92,7 @@ class ContactScene {
   ContactResponse response_;
   ModelBuilder builder_;
   int table_ = 0;  // body, 0: none
-  double table_speed_ = 0;
+  MotionFunction table_motion_;
   std::vector<Start> starts_;
   std::vector<ContactGeometry> pieces_;
   std::unique_ptr<Model<double>> model_;
