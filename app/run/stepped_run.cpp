@@ -111,25 +111,7 @@ std::string SteppedRun::memory() {
 SimulateResult SteppedRun::finish() {
   if (!result_.post_mortem && result_.steps < last_step_)  // samples at the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
-  if (unsolved_ > 0)
-    warn(residual_ > 0
-             ? fmt::format("in {} of {} steps the impulses of contacts and limits miss their laws "
-                           "by more than the accuracy, by {} m/s at most; give a larger budget, "
-                           "or accept another accuracy (docs/reference/scene_file.md)",
-                           unsolved_, result_.steps, short_number_text(residual_))
-             : fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
-                           unsolved_, result_.steps));
-  if (unlocated_ > 0)
-    warn(fmt::format(
-        "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
-        "step is first-order accurate; give --contact rigid, or a shorter --step",
-        unlocated_, result_.steps, EventStep::kMaxLaws));
-  if (const auto use = contacts_ ? contacts_->fcl_use() : CollisionWorld::FclUse();
-      use.rejected > 0)
-    warn(
-        fmt::format("detection = \"own\" answered {} of {} queries of pairs, too deep for FCL or "
-                    "inconsistent (docs/understand/narrow_phases.md)",
-                    use.rejected, use.queries));
+  warn_of_errors();
   result_.energy_balance = energy_balance();
   if (!result_.post_mortem && std::ranges::any_of(result_.energy_balance, [](const EnergyRow& row) {
         return !std::isfinite(row.work);
@@ -204,6 +186,8 @@ bool SteppedRun::one_step(double t, double h_max) {
   const StepReport report = sim_.step(h_max, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
+  if (contacts_ && contacts_->contacts() && !plan_.locates_events)
+    impact_normals_.look(*contacts_->contacts(), report.h);
   const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
   if (!report.finite || !report.reached) {
     // Of the samples of this step only those at its start are valid.

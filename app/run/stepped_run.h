@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/impact_normals.h"
 #include "app/run/run.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"
@@ -47,6 +48,7 @@ class SteppedRun {
 
  private:
   void add_forces(const SimulateInput& simulated);
+  void warn_of_errors();
   void warn(std::string text);
   void serialize(StateArchive& memory);
   void take_back(const std::string& bytes);
@@ -74,6 +76,7 @@ class SteppedRun {
   std::optional<MomentumBalance> momentum_;
   std::optional<EnergyAlarm> alarm_;
   std::optional<SceneContacts> contacts_;
+  ImpactNormals impact_normals_;      // since the run was resumed
   std::optional<Simulation> before_;  // the run at the start of the step
   std::optional<Simulation> copy_;    // of side_step()
   std::vector<State<double>> inner_;

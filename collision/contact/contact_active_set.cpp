@@ -3,6 +3,17 @@
 #include <cmath>
 
 namespace twinarm {
+namespace {
+
+// |f_t| / (mu f_n) up to which a contact begins to be held sticking, and is held on.
+constexpr double kBeginsToStick = 1 - 1e-6, kSticks = 1 + 1e-9;
+
+bool is_in_cone(const Vector3& force, const Vector3& n, double friction) {
+  const double normal = n.dot(force);
+  return (force - normal * n).norm() < friction * normal;
+}
+
+}  // namespace
 
 ContactWork& ContactWorks::of(int a, int b) {
   const std::pair pair(a, b);
@@ -31,13 +42,21 @@ void ContactActiveSet::set_active_set(const ConstraintFrame& frame, bool impact)
     const bool stays_held = p.is_held && !p.is_separating && !impact;
     p.is_held = stays_held || (p.contact.depth >= -kClosed && u <= kRest);
     p.is_separating = false;
+    p.sticks = stays_held && is_in_cone(p.force_W, p.contact.n_W, kBeginsToStick * p.friction);
     p.slip_W = velocity - u * p.contact.n_W;
     const std::pair pair(p.contact.a, p.contact.b);
     if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
       held_pairs_.push_back(pair);
   }
   held_ = points_;
+  released_.assign(held_pairs_.size(), 0);
   integrals_.assign(kIntegrals * held_pairs_.size(), 0);
+}
+
+void ContactActiveSet::restore_active_set() noexcept {
+  points_ = held_;
+  for (ContactPoint& p : points_) p.sticks = p.sticks && !released_[pair_index(p)];
+  std::fill(integrals_.begin(), integrals_.end(), 0);
 }
 
 void ContactActiveSet::find_next_event(const ConstraintFrame& frame,
@@ -57,10 +76,15 @@ void ContactActiveSet::read_smooth(ContactPoint& point, const ImpulseConstraint&
   if (slid && !same_direction) mode = reversing;
   point.is_separating = c.u[0] > kMoves;
   if (point.is_separating) mode = separating;
+  const std::size_t pair = pair_index(point);
+  if (point.sticks) {
+    const bool holds = is_in_cone(point.force_W, point.contact.n_W, kSticks * point.friction) &&
+                       std::hypot(c.u[0], c.u[1], c.u[2]) <= kMoves;  // else contradictory
+    mode = holds ? sticking : released;
+    released_[pair] = released_[pair] || !holds;
+  }
   modes_.push_back(mode);
-  const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
-                                     std::pair(point.contact.a, point.contact.b));
-  double* sums = &integrals_[kIntegrals * static_cast<std::size_t>(pair - held_pairs_.begin())];
+  double* sums = &integrals_[kIntegrals * pair];
   sums[0] += normal, sums[1] += friction;
   const Vector3 impulse_W = h * point.force_W;
   const Vector3 moment_W = bodies_.impulse_moment(point.contact, impulse_W) + h * point.couple_W;

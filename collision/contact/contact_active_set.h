@@ -32,10 +32,8 @@ class ContactActiveSet final : public EventSource {
       : bodies_(bodies), points_(points), works_(works) {}
 
   void set_active_set(const ConstraintFrame& frame, bool impact) noexcept override;
-  void restore_active_set() noexcept override {
-    points_ = held_;
-    std::fill(integrals_.begin(), integrals_.end(), 0);
-  }
+  void restore_active_set() noexcept override;
+  void hold_sticking() noexcept override { std::fill(released_.begin(), released_.end(), 0); }
   void find_next_event(const ConstraintFrame& frame, NextEvent& next) const noexcept override;
   void append_modes(std::vector<char>& modes) const noexcept override {
     modes.insert(modes.end(), modes_.begin(), modes_.end());
@@ -51,12 +49,18 @@ class ContactActiveSet final : public EventSource {
  private:
   // By pair: work of the normal force, work of friction, impulse (3), moment (3).
   static constexpr std::size_t kIntegrals = 8;
+  std::size_t pair_index(const ContactPoint& point) const {
+    const std::pair pair(point.contact.a, point.contact.b);
+    return static_cast<std::size_t>(std::ranges::lower_bound(held_pairs_, pair) -
+                                    held_pairs_.begin());
+  }
 
   ContactBodies& bodies_;
   std::vector<ContactPoint>& points_;
   ContactWorks& works_;
   std::vector<ContactPoint> held_;               // copy of the points after set_active_set()
   std::vector<std::pair<int, int>> held_pairs_;  // ascending
+  std::vector<char> released_;                   // by pair: no longer held sticking
   std::vector<double> integrals_;
   std::vector<char> modes_;  // of the active contacts, after Phase::smooth
 };

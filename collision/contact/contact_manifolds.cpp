@@ -38,7 +38,7 @@ ContactPoint ContactManifolds::start(const Contact& contact) const {
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
     point.is_held = before->is_held, point.is_separating = before->is_separating;
-    point.slip_W = before->slip_W;
+    point.sticks = before->sticks, point.slip_W = before->slip_W;
   }
   return point;
 }

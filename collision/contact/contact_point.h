@@ -64,6 +64,7 @@ struct ContactPoint {
   Vector3 anchor_W = Vector3::Zero();           // compliant: bristle deflection [m]
   Vector3 velocity_W = Vector3::Zero();         // of b relative to a, at the end of the step [m/s]
   bool is_held = false, is_separating = false;  // event_source.h
+  bool sticks = false;  // within a segment: held without slip, as a bilateral constraint
   Vector3 slip_W = Vector3::Zero();  // if held: sliding velocity at the start of the segment [m/s]
   // Within a step:
   bool has_closing_contact = false;  // in the first phase: impact with restitution

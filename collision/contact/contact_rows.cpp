@@ -89,8 +89,10 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
   const int rows = separate || smooth ? 1 : 3;
   const Matrix3 axes = contact_axes(contact.n_W);
   parts_.push_back({i, problem.constraints().size(), 0});
+  const bool sticks = frame.phase == Phase::smooth && point.sticks;
   ImpulseConstraint& c = problem.add(rows == 1 ? ConstraintType::unilateral
                                      : soft    ? ConstraintType::compliant
+                                     : sticks  ? ConstraintType::bilateral
                                                : ConstraintType::coulomb_cone,
                                      rows, tree_a, tree_b);
   frame.trees.add_point_rows(frame.k, a, bodies_.application_point(contact, a), axes, rows, -1,

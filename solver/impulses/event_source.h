@@ -30,6 +30,8 @@ class EventSource {
   virtual void set_active_set(const ConstraintFrame& frame, bool impact) noexcept = 0;
   // Restores the active set of the start of the segment.
   virtual void restore_active_set() noexcept = 0;
+  // Sticking contacts are bilateral until their impulse leaves the friction cone (ContactMode).
+  virtual void hold_sticking() noexcept {}
 
   // Over the inactive gaps.
   struct NextEvent {
@@ -48,8 +50,10 @@ class EventSource {
   virtual void find_next_event(const ConstraintFrame& frame, NextEvent& next) const noexcept = 0;
 
   // Appends the mode of each active constraint after a solution in Phase::smooth. reversing:
-  // sliding at the start, then stopped or reversed. Constant in a smooth segment, never reversing.
-  enum ContactMode : char { sticking, sliding, separating, reversing };
+  // sliding at the start, then stopped or reversed. released: held sticking, but the impulse is
+  // outside the friction cone; restore_active_set() returns this contact to its Coulomb law.
+  // Constant in a smooth segment, never reversing or released.
+  enum ContactMode : char { sticking, sliding, separating, reversing, released };
   virtual void append_modes(std::vector<char>& modes) const noexcept = 0;
 
   // Work integrals [J] of the active constraints since restore_active_set(), for extrapolation.

@@ -16,6 +16,7 @@ struct ImpulseAccuracy {
   double accepted = 5e-9;    // residual of an accepted solution [m/s]
   double tolerance = 1e-10;  // target residual of the iterations [m/s]
   double budget = 1e10;      // floating-point operations for one island, about
+  bool is_to_rounding() const { return good_guess < tolerance; }  // event-driven steps
 };
 
 struct ImpulseReport {

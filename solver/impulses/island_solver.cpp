@@ -36,8 +36,7 @@ double IslandSolver::solve(ImpulseProblem& problem, const ImpulseIsland::Members
   island_.keep_best(residual);
   residual = run_phases(request.full, report);
   if (!island_.has_budget() && !(residual <= wanted.accepted)) residual = island_.scale_impulses();
-  // Event-driven steps, with good_guess < tolerance, require the tolerance.
-  const double required = wanted.good_guess < wanted.tolerance ? wanted.tolerance : wanted.accepted;
+  const double required = wanted.is_to_rounding() ? wanted.tolerance : wanted.accepted;
   const bool affords_newton = residual > wanted.tolerance && island_.has_budget(3 * matrix_.work());
   if (island_.is_small() || (affords_newton && (is_exact() || !(residual <= required))))
     residual = newton_.refine(residual);
@@ -49,11 +48,12 @@ bool IslandSolver::is_exact() const {
   return island_.wanted.accepted < kSweepsToNewton;
 }
 
-// Whether any contact has an impulse in the guess.
+// Whether any contact has an impulse in the guess, or sticks in an event-driven step.
 bool IslandSolver::has_warm_start() const {
   return std::ranges::any_of(island_.constraints(), [&](int i) {
     const ImpulseConstraint& c = island_.constraint(i);
-    return c.law == ConstraintType::coulomb_cone && c.p[0] > 0;
+    return (c.law == ConstraintType::coulomb_cone && c.p[0] > 0) ||
+           (c.law == ConstraintType::bilateral && island_.wanted.is_to_rounding());
   });
 }
 

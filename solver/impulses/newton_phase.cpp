@@ -20,6 +20,12 @@ double limited_rho(const ImpulseConstraint& c, double rho) {
   return std::min(rho, 0.5 * (1 + c.mu * c.mu) * c.p[0] / c.u[0]);
 }
 
+// p -= D u
+void subtract_product(const Mat& D, const Vec& u, Vec& p) {
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t k = 0; k < 3; ++k) p[r] -= D[3 * r + k] * u[k];
+}
+
 }  // namespace
 
 // If the residual grows, restart from the best iterate with a smaller rho, which keeps the inner
@@ -75,8 +81,16 @@ double NewtonPhase::semismooth_step(double residual) {
   const Gradient now = gradient(DeSaxceShift::differentiated);
   if (!(now.squared > 0)) return residual;
   find_direction(false);
-  island_.move(1);
-  gradient(DeSaxceShift::differentiated);
+  if (island_.wanted.is_to_rounding()) {  // p(u) + dp, without the rounding of rho (u + du)
+    std::vector<Vec>&p = island_.p, &du = island_.du;
+    for (const int i : island_.constraints())
+      island_.problem->velocity(island_.constraint(i), island_.dv.data(), du[i]);
+    for (const int i : island_.constraints()) subtract_product(island_.D[i], du[i], p[i]);
+    for (const auto& block : island_.coupling) subtract_product(block.D, du[block.by], p[block.of]);
+  } else {
+    island_.move(1);
+    gradient(DeSaxceShift::differentiated);
+  }
   return island_.apply_impulses(island_.p);
 }
 

@@ -10,9 +10,9 @@ struct StepReport {
   bool converged = true;
   bool reached = true;  // dopri5: false if the tolerance cannot be met; the state is at the last
                         // accepted substep, before the end of the step
-  int iterations = 0;   // implicit integrators: Newton iterations
-  int substeps = 1, rejected = 0;  // dopri5: accepted and rejected substeps
-  int events = 0;                  // stick-slip transitions of joint friction within the step
+  int iterations = 0;   // Newton iterations; event-driven steps: solved impulse problems
+  int substeps = 1, rejected = 0;  // dopri5, event-driven steps: accepted and rejected substeps
+  int events = 0;  // stick-slip transitions of joint friction; event-driven steps: all events
   // Event-driven steps: false if there were too many events and the remainder was one fixed step.
   bool located = true;
   bool interrupted = false;        // event-driven steps: ended early by the caller

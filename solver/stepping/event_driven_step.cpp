@@ -47,10 +47,11 @@ void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h
   const double t_end = m_->x.t + h;
   if (length_ <= 0) length_ = h;
   report.substeps = 0;
-  solves_ = 0;
+  solves_ = 0, laws_ = 0;
   interrupted_ = interrupted, is_interrupted_ = false;
   for (double left = h; left > 1e-15 * h; left = t_end - m_->x.t) {
     const double s = smooth_segment(left, report);
+    report.iterations = solves_;
     if (s == 0) {
       restore_segment_start();
       report.interrupted = is_interrupted_;
@@ -77,6 +78,7 @@ void EventStep::restore_segment_start() {
 // The remainder as one step of fixed size; then a new active set.
 void EventStep::finish(double t_end, StepReport& report) {
   const bool is_converged = report.converged;
+  const int solved = report.iterations;
   constrained_->system().set_default_accuracy();
   constrained_->step(*m_, t_end - m_->x.t, report);
   m_->x.t = t_end;
@@ -84,6 +86,7 @@ void EventStep::finish(double t_end, StepReport& report) {
   constrained_->system().begin_step(*m_, 0);
   for (EventSource* source : sources_) source->set_active_set(frame(), true);
   report.converged = report.converged && is_converged;
+  report.iterations += solved;
   report.located = false;
   ++report.substeps;
 }
@@ -156,21 +159,23 @@ double EventStep::locate_contact(double s, double gap_start, double gap_end) {
 
 // One first-order step over a located event.
 void EventStep::step_over_event(double s) {
-  is_solved_ = true;
-  modes_.clear();
   run_column(s, 1, ModeChange::accepted);
   set_state(values_, s);
 }
 
 // From start_ by s by extrapolation; m_ is set to the result, accepted or not.
 EventStep::Segment EventStep::integrate_segment(double s) {
-  modes_.clear();
-  is_solved_ = true;
+  for (EventSource* source : sources_) source->hold_sticking();
   table_.clear();
   for (int n = 1; n <= kColumns; ++n) {
-    if (!run_column(s, n, ModeChange::rejected))
-      return stops() ? Segment::stopped : Segment::mode_changed;
-    table_.add_row(values_);
+    if (run_column(s, n, ModeChange::rejected)) {
+      table_.add_row(values_);
+      continue;
+    }
+    if (stops()) return Segment::stopped;
+    if (!has_mode(EventSource::released)) return Segment::mode_changed;
+    table_.clear();
+    n = 0;  // again, with Coulomb's law
   }
   const std::size_t nv = m_->model().nv;
   size_.resize(nv);
@@ -192,6 +197,7 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
   const bool rejects = mode_change == ModeChange::rejected;
   const std::size_t nv = m_->model().nv;
   const double step = s / n;
+  if (n == 1) is_solved_ = true;
   m_->x = start_;
   if (m_->account) m_->account->start_segment();
   for (EventSource* source : sources_) source->restore_active_set();
@@ -206,14 +212,15 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
     m_->update_kinematics();
     constrained_->system().begin_step(*m_, 0);
     constrained_->smooth_step(*m_, step);
-    solves_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
+    ++solves_;
+    laws_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
     is_solved_ = is_solved_ && constrained_->report().step.converged;
     modes_now_.clear();
     for (EventSource* source : sources_) source->append_modes(modes_now_);
     if (n == 1) modes_ = modes_now_;
-    const bool reverses =
-        std::count(modes_now_.begin(), modes_now_.end(), EventSource::ContactMode::reversing) > 0;
-    if (rejects && (reverses || modes_now_ != modes_)) return false;
+    if (rejects && (has_mode(EventSource::reversing) || has_mode(EventSource::released) ||
+                    modes_now_ != modes_))
+      return false;
   }
   values_ = theta_;
   values_.insert(values_.end(), m_->x.qd.begin(), m_->x.qd.end());

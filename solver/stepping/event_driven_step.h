@@ -10,7 +10,10 @@
 // difference of the last two columns is the error estimate, which controls s.
 //
 // A segment is accepted if every active contact keeps its mode (sticking, sliding, separating) in
-// all steps; otherwise it is halved, down to 1e-11 s, which locates the change. If a gap is closed
+// all steps; otherwise it is halved, down to 1e-11 s, which locates the change. Sticking contacts
+// are bilateral constraints: no rounding amplified by the friction coefficient or by extrapolation
+// makes them slide. If an impulse leaves its friction cone, the segment is integrated again with
+// Coulomb's law for that pair; a contact sticks again when its force is inside. If a gap is closed
 // at the end, the segment is shortened by regula falsi to gap zero; then the impact is resolved
 // with restitution. Impacts slower than 1e-7 m/s do not bounce: the step passes the accumulation
 // point of a bouncing ball.
@@ -24,6 +27,7 @@
 // the predicted time of contact limits s, so that no contact is missed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -75,7 +79,7 @@ class EventStep {
   // Interrupted, or too many constraints solved.
   bool stops() {
     if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
-    return is_interrupted_ || solves_ >= kMaxLaws;
+    return is_interrupted_ || laws_ >= kMaxLaws;
   }
   EventSource::NextEvent next_event() const;
   void set_state(const std::vector<double>& row, double s);
@@ -93,9 +97,11 @@ class EventStep {
   std::vector<double> values_;  // of one column
   double error_ = 0;            // difference of the last two columns, over kTolerance
   bool is_solved_ = true;       // all steps of the segment
-  long solves_ = 0;             // constraint solutions in this step
+  int solves_ = 0;              // impulse problems solved in this step
+  long laws_ = 0;               // and the constraints in them
   Interrupted interrupted_ = nullptr;
   bool is_interrupted_ = false;
+  bool has_mode(char mode) const { return std::ranges::count(modes_now_, mode) > 0; }
   std::vector<char> modes_, modes_now_;
 };
 

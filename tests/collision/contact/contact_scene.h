@@ -42,6 +42,14 @@ class ContactScene {
   }
   void floor(const ContactSurface& surface) { obstacle(HalfSpace{}, surface); }
 
+  // A half-space with prescribed motion. Add it after all bodies.
+  void table(const MotionFunction& motion, const ContactSurface& surface) {
+    table_ =
+        builder_.add_body("table", 0, "table", JointType::prescribed, {}, Vector3::UnitZ(), {});
+    pieces_.push_back({"table", table_, {}, HalfSpace{}, surface, 0});
+    table_motion_ = motion;
+  }
+
   // Call after adding all bodies.
   Simulation& begin(const SimulationOptions& options = {}) {
     model_ = std::make_unique<Model<double>>(builder_.build());
@@ -56,6 +64,7 @@ class ContactScene {
       q[3] = turn.w();
     }
     simulation_ = std::make_unique<Simulation>(*model_, x, options);
+    if (table_ > 0) simulation_->prescribe(table_, table_motion_);
     contacts_ = std::make_unique<ContactConstraints>(*model_, response_);
     if (by_fcl) contacts_->bodies().world().use_fcl();
     for (const ContactGeometry& piece : pieces_) contacts_->bodies().add(piece);
@@ -85,6 +94,8 @@ class ContactScene {
  private:
   ContactResponse response_;
   ModelBuilder builder_;
+  int table_ = 0;  // body, 0: none
+  MotionFunction table_motion_;
   std::vector<Start> starts_;
   std::vector<ContactGeometry> pieces_;
   std::unique_ptr<Model<double>> model_;
