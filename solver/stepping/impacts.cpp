@@ -106,7 +106,8 @@ double Impacts::blend_towards_elastic(ImpulseProblem& problem) {
   // square s^2 + cross s + plastic = before
   const double allowed = std::max(0.0, before - plastic);
   const double root = std::sqrt(cross * cross + 4 * square * allowed);
-  const double s = std::clamp(2 * allowed / (cross + root), 0.0, 1.0);
+  const double s =
+      allowed > 0 ? std::clamp(2 * allowed / (cross + root), 0.0, 1.0) : 0;  // never 0 / 0
   for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic_[k];
   for (std::size_t i = 0; i < problem.constraints().size(); ++i)
     for (std::size_t r = 0; r < 3; ++r) {
