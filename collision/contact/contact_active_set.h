@@ -1,4 +1,4 @@
-// Active set of an event-driven step (solver/impulses/event_source.h): the contacts that are
+// Active set of an event-driven step (solver/constraints/event_source.h): the contacts that are
 // constraints during a smooth segment, and their work.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collision/contact/contact_bodies.h"
-#include "solver/impulses/event_source.h"
+#include "solver/constraints/event_source.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {

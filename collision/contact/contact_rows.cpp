@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "solver/impulses/event_source.h"
+#include "solver/constraints/event_source.h"
 
 namespace twinarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collision/contact/contact_bodies.h"
-#include "solver/impulses/constraint_source.h"
+#include "solver/constraints/constraint_source.h"
 
 namespace twinarm {
 

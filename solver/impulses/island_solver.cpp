@@ -33,7 +33,7 @@ double IslandSolver::solve(ImpulseProblem& problem, const ImpulseIsland::Members
   if (!open) return residual;
   ++report.solved;
   matrix_.set(island_);
-  island_.keep_best(residual);
+  if (!(residual <= wanted.accepted)) island_.keep_best(residual);
   residual = run_phases(request.full, report);
   if (!island_.has_budget() && !(residual <= wanted.accepted)) residual = island_.scale_impulses();
   const double required = wanted.is_to_rounding() ? wanted.tolerance : wanted.accepted;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/impulses/constraint_source.h"
+#include "solver/constraints/constraint_source.h"
 #include "solver/integration/integration_state.h"
 #include "solver/support/state_archive.h"
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
-#include "solver/impulses/constraint_source.h"
+#include "solver/constraints/constraint_source.h"
+#include "solver/constraints/kinematic_trees.h"
 #include "solver/impulses/impulse_solver.h"
-#include "solver/impulses/kinematic_trees.h"
 #include "solver/integration/integration_state.h"
 #include "solver/stepping/bilateral_constraints.h"
 #include "solver/support/state_archive.h"

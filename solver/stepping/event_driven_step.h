@@ -31,7 +31,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/impulses/event_source.h"
+#include "solver/constraints/event_source.h"
 #include "solver/stepping/constrained_step.h"
 
 namespace twinarm {

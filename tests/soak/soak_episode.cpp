@@ -6,8 +6,8 @@
 
 #include "app/scene/model/scene_model.h"
 #include "collision/contact/contact_constraints.h"
+#include "solver/constraints/joint_limits.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "tests/soak/soak_energy.h"
 

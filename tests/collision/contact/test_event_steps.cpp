@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "solver/impulses/joint_limits.h"
+#include "solver/constraints/joint_limits.h"
 #include "tests/collision/contact/contact_scene.h"
 #include "tests/support/count_allocations.h"
 

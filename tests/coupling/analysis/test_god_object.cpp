@@ -4,7 +4,7 @@
 
 #include "collision/contact/contact_constraints.h"
 #include "coupling/laws/coupling_spec.h"
-#include "solver/impulses/joint_limits.h"
+#include "solver/constraints/joint_limits.h"
 #include "solver/support/diagnostics.h"
 #include "tests/coupling/analysis/laws.h"
 #include "tests/coupling/analysis/two_link.h"

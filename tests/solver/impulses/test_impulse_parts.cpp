@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "solver/constraints/kinematic_trees.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/impulses/impulse_solver.h"
-#include "solver/impulses/kinematic_trees.h"
 #include "solver/linear_algebra/envelope_lu.h"
 #include "solver/linear_algebra/second_order_cone.h"
 #include "tests/solver/dynamics/random_tree.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/constraints/joint_limits.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 
 using namespace twinarm;

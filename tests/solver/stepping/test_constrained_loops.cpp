@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "solver/constraints/joint_limits.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/state_archive.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/constraints/joint_limits.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 #include "tests/solver/dynamics/random_tree.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <deque>
 
-#include "solver/impulses/joint_limits.h"
+#include "solver/constraints/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "tests/solver/dynamics/random_tree.h"
 

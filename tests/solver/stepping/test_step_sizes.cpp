@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "solver/constraints/joint_limits.h"
 #include "solver/forces/joint_stops.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 #include "tests/solver/dynamics/random_tree.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
+#include "solver/constraints/joint_limits.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "tests/support/count_allocations.h"
 

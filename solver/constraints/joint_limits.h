@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/impulses/event_source.h"
+#include "solver/constraints/event_source.h"
 #include "solver/support/checkpointable.h"
 
 namespace twinarm {

@@ -1,4 +1,4 @@
-#include "solver/impulses/joint_limits.h"
+#include "solver/constraints/joint_limits.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "solver/impulses/kinematic_trees.h"
+#include "solver/constraints/kinematic_trees.h"
 
 #include <string>
 

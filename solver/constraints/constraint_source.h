@@ -10,9 +10,9 @@
 // None of them may throw, or allocate when warm (simulation.h): out of memory ends the program.
 #pragma once
 
+#include "solver/constraints/kinematic_trees.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/impulses/impulse_problem.h"
-#include "solver/impulses/kinematic_trees.h"
 
 namespace twinarm {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/impulses/constraint_source.h"
+#include "solver/constraints/constraint_source.h"
 
 namespace twinarm {
 
