@@ -76,7 +76,7 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
               spec.spring.body);
   }
   if (contacts && contacts->contacts())
-    for (const ContactWork& pair : contacts->contacts()->work()) {
+    for (const ContactWork& pair : contacts->work_by_names()) {
       const ContactGeometry &a = contacts->contacts()->bodies().geometry(pair.a),
                             &b = contacts->contacts()->bodies().geometry(pair.b);
       const bool has_row = moves(a.body) != moves(b.body);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 #include <string_view>
 
 #include "app/scene/read/read_scene.h"
@@ -157,6 +158,27 @@ void SceneContacts::find_deepest_contact(const Simulation& simulation) {
   }
 }
 
+std::vector<ContactWork> SceneContacts::work_by_names() const {
+  const auto first_of_name = [&](int i) {
+    const auto name = [&](int k) -> const std::string& {
+      return contacts_->bodies().geometry(k).name;
+    };
+    while (i > 0 && name(i - 1) == name(i)) --i;
+    return i;
+  };
+  std::map<std::pair<int, int>, ContactWork> sums;
+  for (const ContactWork& pair : contacts_->work()) {
+    const std::pair names(first_of_name(pair.a), first_of_name(pair.b));
+    ContactWork& sum =
+        sums.try_emplace(names, ContactWork{names.first, names.second}).first->second;
+    sum.normal += pair.normal, sum.friction += pair.friction, sum.impact += pair.impact;
+    sum.impulse_W += pair.impulse_W, sum.moment_W += pair.moment_W;
+  }
+  std::vector<ContactWork> works;
+  for (const auto& [names, sum] : sums) works.push_back(sum);
+  return works;
+}
+
 std::vector<EnergyRow> SceneContacts::rows() const {
   std::vector<EnergyRow> rows;
   const auto add = [&](EnergyRowKind kind, const std::string& of, std::string_view part,
@@ -173,11 +195,11 @@ std::vector<EnergyRow> SceneContacts::rows() const {
           limit.work);
     }
   if (!contacts_) return rows;
-  rows.reserve(rows.size() + 3 * contacts_->work().size());
-  std::string name;
-  for (const ContactWork& pair : contacts_->work()) {
-    name.assign("contact/").append(contacts_->bodies().geometry(pair.a).name).append("-");
-    name.append(contacts_->bodies().geometry(pair.b).name);
+  const std::vector<ContactWork> works = work_by_names();
+  rows.reserve(rows.size() + 3 * works.size());
+  for (const ContactWork& pair : works) {
+    const std::string name = "contact/" + contacts_->bodies().geometry(pair.a).name + "-" +
+                             contacts_->bodies().geometry(pair.b).name;
     add(EnergyRowKind::contact_normal, name, "/normal", pair.normal);
     add(EnergyRowKind::contact_friction, name, "/friction", pair.friction);
     add(EnergyRowKind::contact_impact, name, "/impact", pair.impact);

@@ -9,7 +9,7 @@
 #include "app/scene/forces/reported_forces.h"
 #include "app/scene/model/scene_model.h"
 #include "collision/contact/contact_constraints.h"
-#include "solver/impulses/joint_limits.h"
+#include "solver/constraints/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 
@@ -34,6 +34,8 @@ class SceneContacts {
   // Keeps references to both. Throws InputError for loops that are open at the start.
   SceneContacts(const SceneModel& scene, Simulation& simulation);
   // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`, with work other than 0.
+  // Of the contacts, summed over the geometries of a link, which have its name one after the other.
+  std::vector<ContactWork> work_by_names() const;
   std::vector<EnergyRow> rows() const;
   int contact_count() const;  // active contact points at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
