@@ -13,7 +13,9 @@ SCENES = [scene for scene in sorted(program.SCENES.glob("*.toml")) if not has_mo
 # Durations [s] that include contact.
 DURATION = {"pyramid": 0.05, "box_stack": 0.1, "heap": 0.2, "bouncing_ball": 0.6, "cradle": 0.4,
             "rattleback": 0.1, "spinning_coin": 0.05, "four_bar": 0.4, "slider_crank": 0.4,
-            "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3}
+            "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3, "arch": 0.1, "house_of_cards": 0.1, "dominoes": 0.1,
+            "granular_column": 0.05, "wrecking_ball": 0.05}
+IN_EVENT_STEPS = {"four_bar": 0.002, "arch": 0.002, "wrecking_ball": 0.002, "granular_column": 0.01}
 
 FLOOR = data("floor.toml", offset=-5)
 HAMMER = robot(
@@ -64,7 +66,7 @@ class EnergyBalances(RecordingCommand):
             for contact in ("rigid", "compliant", "event"):
                 duration = DURATION.get(scene.stem, 0.3)
                 if contact == "event":
-                    duration = 0.002 if scene.stem == "four_bar" else min(duration, 0.05)
+                    duration = IN_EVENT_STEPS.get(scene.stem, min(duration, 0.05))
                 with self.subTest(scene=scene.stem, contact=contact):
                     self.balance(scene, "--duration", duration, "--contact", contact)
 

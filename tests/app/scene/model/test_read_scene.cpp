@@ -51,7 +51,8 @@ TEST_CASE("scene: copies of a body stand in a grid, with names in the order of t
 TEST_CASE("scene: copies are counted in whole numbers, up to 10000, and named apart") {
   const auto codes = [](const std::string& text) {
     std::vector<std::string> found;
-    for (const Diagnostic& fault : faults_of([&] { scene_of(text); })) found.push_back(fault.code);
+    for (const Diagnostic& fault : faults_of([&] { scene_of(text); }))
+      found.emplace_back(fault.code);
     return found;
   };
   const std::string body = "[[body]]\nname = 'b'\nmass = 1\nshape.sphere.radius = 0.1\n";
