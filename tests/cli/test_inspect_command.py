@@ -136,6 +136,9 @@ class Inspect(RobotCommand):
             self.assertEqual(re.findall(r"\S*e-(?:1[4-9]|[2-9]\d)\b", page), [])
 
 
+TOO_LARGE = ("dominoes", "granular_column")  # more than 1000 degrees of freedom
+
+
 class InspectScenes(RobotCommand):
     command = "inspect"
     check_sums, wrenches_on = Inspect.check_sums, Inspect.wrenches_on
@@ -146,7 +149,10 @@ class InspectScenes(RobotCommand):
     def test_every_scene_that_comes_with_it_is_in_balance(self):
         for scene in sorted((ROOT / "assets/scenes").glob("*.toml")):
             with self.subTest(scene=scene.stem):
-                self.check_sums(self.json_of("inspect", scene))
+                if scene.stem in TOO_LARGE:
+                    self.fault("model.too-large", "inspect", scene)
+                else:
+                    self.check_sums(self.json_of("inspect", scene))
 
     def test_each_box_of_a_stack_carries_the_weight_of_those_above(self):
         found = self.scene("box_stack")
