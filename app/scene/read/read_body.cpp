@@ -79,7 +79,7 @@ void read_appearance(SceneReader& reader, TableReader& table, BodyDescription& b
 // grid whose places are shifted by up to `scatter` in each direction, by numbers that only depend
 // on the place's index.
 std::vector<Vector3> read_copies(SceneReader& reader, TableReader& table) {
-  constexpr double kMaxCopies = 10000;
+  constexpr double kMaxBodies = 10000;  // of a scene, as soon as it has copies
   const Value* given = table.table("copies");
   if (!given) return {Vector3::Zero()};
   TableReader grid = reader.open(*given, table.where() + ", copies");
@@ -89,9 +89,10 @@ std::vector<Vector3> read_copies(SceneReader& reader, TableReader& table) {
   const Vector3 spacing = grid.vector("spacing").value_or(Vector3::Zero());
   const double scatter = grid.number("scatter").value_or(0);
   grid.done();
-  if (!(count.minCoeff() >= 1 && count.prod() <= kMaxCopies) ||
+  if (!(count.minCoeff() >= 1 &&
+        static_cast<double>(reader.scene.bodies.size()) + count.prod() <= kMaxBodies) ||
       count != count.array().floor().matrix()) {
-    grid.fault("count", "must be whole numbers from 1, with a product up to 10000", "",
+    grid.fault("count", "must be whole numbers from 1, with at most 10000 bodies in the scene", "",
                "scene.range");
     return {Vector3::Zero()};
   }

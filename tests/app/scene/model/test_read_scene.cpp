@@ -48,7 +48,7 @@ TEST_CASE("scene: copies of a body stand in a grid, with names in the order of t
   CHECK(largest > 0.003);
 }
 
-TEST_CASE("scene: copies are counted in whole numbers, up to 10000, and named apart") {
+TEST_CASE("scene: copies are counted in whole numbers, up to 10000 bodies, and named apart") {
   const auto codes = [](const std::string& text) {
     std::vector<std::string> found;
     for (const Diagnostic& fault : faults_of([&] { scene_of(text); }))
@@ -61,6 +61,11 @@ TEST_CASE("scene: copies are counted in whole numbers, up to 10000, and named ap
     CHECK(codes(body + "copies = { count = " + count + ", spacing = [1, 1, 1] }\n") ==
           std::vector<std::string>{"scene.range"});
   }
+  const std::string most = body + "copies = { count = [100, 100, 1], spacing = [1, 1, 1] }\n";
+  CHECK(codes(most) == std::vector<std::string>{});
+  CHECK(codes(most + "[[body]]\nname = 'c'\nmass = 1\nshape.sphere.radius = 0.1\n"
+                     "copies = { count = [2, 1, 1], spacing = [1, 1, 1] }\n") ==
+        std::vector<std::string>{"scene.range"});
   CHECK(codes(body + "copies = { count = [2, 1, 1] }\n") ==
         std::vector<std::string>{"scene.missing"});
   CHECK(codes(body + "copies = { count = [2, 1, 1], spacing = [1, 1, 1] }\n[[body]]\nname = 'b1'\n"
