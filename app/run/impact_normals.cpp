@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 namespace twinarm {
 namespace {
 
@@ -12,14 +15,16 @@ constexpr double kMinGap = 1e-6;    // of a flight to the impact [m]
 
 void ImpactNormals::look(const ContactConstraints& contacts, double h) {
   const ContactBodies& bodies = contacts.bodies();
-  for (const ContactPoint& p : contacts.points())
-    for (const Impact& i : impacts_) {
-      if (i.a != p.contact.a || i.b != p.contact.b || i.feature != p.contact.feature) continue;
-      const double turn = (p.contact.n_W - i.n_W).norm();
-      if (turn <= turn_) continue;
-      turn_ = turn;
-      pair_ = bodies.geometry(i.a).name + "-" + bodies.geometry(i.b).name;
-    }
+  // Both lists are sorted by this.
+  const auto key = [](const auto& at) { return std::tuple(at.a, at.b, at.feature); };
+  for (const ContactPoint& p : contacts.points()) {
+    const auto i = std::ranges::lower_bound(impacts_, key(p.contact), {}, key);
+    if (i == impacts_.end() || key(*i) != key(p.contact)) continue;
+    const double turn = (p.contact.n_W - i->n_W).norm();
+    if (turn <= turn_) continue;
+    turn_ = turn;
+    pair_ = bodies.geometry(i->a).name + "-" + bodies.geometry(i->b).name;
+  }
   impacts_.clear();
   for (const ContactPoint& p : contacts.points()) {
     const Vector3 impact = p.impulse_W - h * p.force_W;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <future>
 #include <numeric>
+#include <system_error>
 #include <thread>
 
 #include "solver/impulses/island_solver.h"
@@ -41,7 +42,11 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem, bool full) {
       solve_island(problem, i, full, *solvers_[thread], reports_[thread]);
   };
   std::vector<std::future<void>> others;
-  for (std::size_t k = 1; k < count; ++k) others.push_back(std::async(std::launch::async, work, k));
+  try {
+    for (std::size_t k = 1; k < count; ++k)
+      others.push_back(std::async(std::launch::async, work, k));
+  } catch (const std::system_error&) {  // no more threads: those that run do the work
+  }
   work(0);
   for (std::future<void>& other : others) other.get();
   for (std::size_t k = 1; k < count; ++k) reports_[0].add(reports_[k]);

@@ -24,9 +24,12 @@ class ContactEffort(ProgramTest):
         texts = [re.search(r"by ([0-9.e-]+) m/s at most", text) for text in answer["warnings"]]
         return max((float(found[1]) for found in texts if found), default=None)
 
-    def test_an_accuracy_is_kept_without_a_warning(self):
+    def test_an_accuracy_is_kept_without_a_warning_and_a_coarse_one_moves_otherwise(self):
         for head in ("", "accuracy = 1e-4\n", "accuracy = 1e-6\n"):
             self.assertIsNone(self.residual(head), head)
+        exact, coarse = (self.json_of("simulate", self.write("scene.toml", head + SCENE), "--duration", 0.2)["samples"]
+                         for head in ("", "accuracy = 1e-3\n"))
+        self.assertNotEqual(exact[-1]["links"], coarse[-1]["links"])
 
     def test_a_budget_that_ends_early_is_reported_and_a_larger_one_leaves_less(self):
         small, larger = self.residual("budget = 2e6\n"), self.residual("budget = 2e8\n")

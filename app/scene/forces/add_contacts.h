@@ -34,9 +34,9 @@ class SceneContacts {
   // Keeps references to both. Throws InputError for loops that are open at the start.
   SceneContacts(const SceneModel& scene, Simulation& simulation);
   // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`, with work other than 0.
-  // Of the contacts, summed over the geometries of a link, which have its name one after the other.
-  std::vector<ContactWork> work_by_names() const;
   std::vector<EnergyRow> rows() const;
+  // Of the contacts, summed over the geometries of a link: consecutive ones with the link's name.
+  std::vector<ContactWork> work_by_names() const;
   int contact_count() const;  // active contact points at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
