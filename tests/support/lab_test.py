@@ -44,12 +44,17 @@ class LabTest(ProgramTest):
     def frame(self, condition=lambda frame: True):
         return self.live.wait_for("frame", condition)
 
+    def newest_frame(self, condition):
+        """The newest frame if the condition holds for it, else the next for which it does:
+        for frames that come before a state or after it."""
+        newest = self.live.newest.get("frame")
+        return Frame(newest) if newest and condition(Frame(newest)) else self.frame(condition)
+
     def stand(self):
-        """The frame of the pause: it comes before the state or after it."""
+        """The frame of the pause."""
         self.live.do("play", on=False)
         self.state(lambda s: not s["playing"])
-        newest = self.live.newest.get("frame")  # none if the pause came before the first
-        return Frame(newest) if newest and Frame(newest).paused else self.frame(lambda f: f.paused)
+        return self.newest_frame(lambda f: f.paused)
 
     def saved(self, name):
         file = self.folder / name
