@@ -10,7 +10,9 @@ constexpr double kFirstRho = NewtonPhase::kFirstRho, kLargeRho = 1e4;
 // Newton steps: before interior_point.cpp is tried, also of a small island; after it.
 constexpr int kQuickNewton = 12, kQuickNewtonSmall = NewtonPhase::kFewSteps, kLargeNewton = 60;
 constexpr int kRestartFactor = 4;  // times kMaxNewton
-// Sweeps before interior_point.cpp: so many, or the work of so many Newton steps.
+// Sweeps at first: of a small island without a guess; of a larger one, exactly; else so many, or
+// the work of so many Newton steps.
+constexpr double kColdSweeps = 20, kExactSweeps = 100;
 constexpr double kFirstSweeps = 200, kSweepsPerNewton = 20;
 // Newton steps that the budget must allow: to begin with them; for interior_point.cpp after sweeps.
 constexpr double kAmple = 100, kInterior = 40;
@@ -62,20 +64,18 @@ double IslandSolver::run_phases(bool full, ImpulseReport& report) {
   guess_p_.resize(island_.p.size()), swept_p_.resize(island_.p.size());
   const bool small = island_.is_small();
   for (const int i : island_.constraints()) guess_p_[i] = island_.constraint(i).p;
-  if (small && has_warm_start()) {
-    island_.keep_best(newton_.solve_near(report));
-    if (is_solved()) return island_.best;
-    island_.apply_impulses(guess_p_);
-  }
-  if (small || (is_exact() && island_.has_budget(kAmple * matrix_.work()))) {
-    newton_.solve(small ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
+  const bool exact = is_exact() && island_.has_budget(kAmple * matrix_.work());
+  if (small) {
+    if (!has_warm_start()) run_sweeps(kColdSweeps, report);
+    if (!is_solved()) island_.keep_best(newton_.solve_near(report));
+    if (!is_solved()) island_.apply_impulses(guess_p_);
   } else {
     const bool interior_follows = island_.has_budget(kInterior * matrix_.work());
-    const double first =
-        std::max(kFirstSweeps, kSweepsPerNewton * matrix_.work() / island_.sweep_work);
-    run_sweeps(interior_follows ? first : std::numeric_limits<double>::infinity(), report);
+    run_sweeps(first_sweeps(exact, interior_follows), report);
     if (!interior_follows) return island_.apply_impulses(island_.best_p);
   }
+  if (!is_solved() && (small || exact))
+    newton_.solve(small ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
   if (is_solved()) return island_.best;
   report.interior = std::max(report.interior, interior_.solve());
   island_.keep_best(island_.apply_impulses());
@@ -86,6 +86,12 @@ double IslandSolver::run_phases(bool full, ImpulseReport& report) {
     run_sweeps(kFirstSweeps, report);
   }
   return island_.apply_impulses(island_.best_p);
+}
+
+double IslandSolver::first_sweeps(bool exact, bool interior_follows) const {
+  if (exact) return kExactSweeps;
+  if (!interior_follows) return std::numeric_limits<double>::infinity();
+  return std::max(kFirstSweeps, kSweepsPerNewton * matrix_.work() / island_.sweep_work);
 }
 
 void IslandSolver::try_other_starts(ImpulseReport& report) {
