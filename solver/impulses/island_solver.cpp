@@ -1,13 +1,14 @@
 #include "solver/impulses/island_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace twinarm {
 namespace {
 
 constexpr double kFirstRho = NewtonPhase::kFirstRho, kLargeRho = 1e4;
-// Newton steps: before interior_point.cpp is tried, also of a small island; after it.
+// Newton steps: before interior_point.cpp is tried, also of a small island from a guess; after it.
 constexpr int kQuickNewton = 12, kQuickNewtonSmall = NewtonPhase::kFewSteps, kLargeNewton = 60;
 constexpr int kRestartFactor = 4;  // times kMaxNewton
 // Sweeps at first: of a small island without a guess; of a larger one, exactly; else so many, or
@@ -59,23 +60,32 @@ bool IslandSolver::has_warm_start() const {
   });
 }
 
+// Whether a face rests on another: more than three contacts between two trees, and clearly more
+// rows than velocities. Sweeps would distribute its impulses in the order of its contacts.
+bool IslandSolver::has_faces() const {
+  std::size_t rows = 0, velocities = 0;
+  int contacts = 0, most = 0;  // in sequence between two trees
+  std::array<int, 2> last{};
+  for (const int i : island_.constraints()) {
+    const ImpulseConstraint& c = island_.constraint(i);
+    rows += static_cast<std::size_t>(c.rows);
+    if (c.law != ConstraintType::coulomb_cone) continue;
+    contacts = contacts > 0 && last == c.tree ? contacts + 1 : 1;
+    most = std::max(most, contacts);
+    last = c.tree;
+  }
+  island_.for_each_velocity([&](std::size_t) { ++velocities; });
+  return most > 3 && 5 * rows > 6 * velocities;
+}
+
 // Phases until the residual is accepted. Sets the best p and returns its residual.
 double IslandSolver::run_phases(bool full, ImpulseReport& report) {
   guess_p_.resize(island_.p.size()), swept_p_.resize(island_.p.size());
-  const bool small = island_.is_small();
   for (const int i : island_.constraints()) guess_p_[i] = island_.constraint(i).p;
-  const bool exact = is_exact() && island_.has_budget(kAmple * matrix_.work());
-  if (small) {
-    if (!has_warm_start()) run_sweeps(kColdSweeps, report);
-    if (!is_solved()) island_.keep_best(newton_.solve_near(report));
-    if (!is_solved()) island_.apply_impulses(guess_p_);
-  } else {
-    const bool interior_follows = island_.has_budget(kInterior * matrix_.work());
-    run_sweeps(first_sweeps(exact, interior_follows), report);
-    if (!interior_follows) return island_.apply_impulses(island_.best_p);
-  }
-  if (!is_solved() && (small || exact))
-    newton_.solve(small ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
+  const bool small = island_.is_small();
+  const bool interior_follows = small || island_.has_budget(kInterior * matrix_.work());
+  small ? start_small(report) : start_large(interior_follows, report);
+  if (!interior_follows) return island_.apply_impulses(island_.best_p);
   if (is_solved()) return island_.best;
   report.interior = std::max(report.interior, interior_.solve());
   island_.keep_best(island_.apply_impulses());
@@ -88,10 +98,28 @@ double IslandSolver::run_phases(bool full, ImpulseReport& report) {
   return island_.apply_impulses(island_.best_p);
 }
 
-double IslandSolver::first_sweeps(bool exact, bool interior_follows) const {
-  if (exact) return kExactSweeps;
-  if (!interior_follows) return std::numeric_limits<double>::infinity();
-  return std::max(kFirstSweeps, kSweepsPerNewton * matrix_.work() / island_.sweep_work);
+void IslandSolver::start_small(ImpulseReport& report) {
+  const bool warm = has_warm_start();
+  if (const bool sweeps = !warm && !has_faces(); sweeps || warm) {
+    if (sweeps) run_sweeps(kColdSweeps, report);
+    if (!is_solved()) island_.keep_best(newton_.solve_near(report));
+  }
+  if (is_solved()) return;
+  island_.apply_impulses(guess_p_);
+  newton_.solve(warm ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
+}
+
+void IslandSolver::start_large(bool interior_follows, ImpulseReport& report) {
+  const bool exact = is_exact() && island_.has_budget(kAmple * matrix_.work());
+  if (exact) {
+    if (!has_faces()) run_sweeps(kExactSweeps, report);
+    if (!is_solved()) newton_.solve(kQuickNewton, kFirstRho, report);
+  } else {
+    const double as_newton = kSweepsPerNewton * matrix_.work() / island_.sweep_work;
+    run_sweeps(interior_follows ? std::max(kFirstSweeps, as_newton)
+                                : std::numeric_limits<double>::infinity(),
+               report);
+  }
 }
 
 void IslandSolver::try_other_starts(ImpulseReport& report) {

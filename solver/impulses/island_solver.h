@@ -1,7 +1,7 @@
 // Solver of one island of impulse_problem.h, in phases; the best p is kept:
 //   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
-//   start        conjugate_sweeps.h, unless a small island has a guess; then newton_phase.h, in
-//                larger islands if accuracy and budget are not coarse
+//   start        of small islands from a guess Newton steps (newton_phase.h); else sweeps
+//                (conjugate_sweeps.h), unless a face rests on another, then Newton steps
 //   interior     interior_point.cpp as start of further Newton steps; then central_path.cpp, path
 //                following from several starts
 //   end          small islands are refined to rounding by Newton steps
@@ -39,8 +39,10 @@ class IslandSolver {
   double run_phases(bool full, ImpulseReport& report);
   void try_other_starts(ImpulseReport& report);
   void run_sweeps(double max_sweeps, ImpulseReport& report);
-  double first_sweeps(bool exact, bool interior_follows) const;
+  void start_small(ImpulseReport& report);
+  void start_large(bool interior_follows, ImpulseReport& report);
   bool has_warm_start() const;
+  bool has_faces() const;
   bool is_solved() const { return island_.best <= island_.wanted.accepted; }
   bool is_exact() const;
 
