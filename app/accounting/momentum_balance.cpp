@@ -18,6 +18,7 @@ MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<Give
       moved_(bodies_with_dofs(input.model)),
       stabilisation_(loop_count_),
       mimics_(input.model.mimics.size()),
+      sleeps_(simulation.constraints().sleep().is_on()),
       start_(simulation.state()),
       now_(start_),
       k_(input.model),
@@ -53,6 +54,7 @@ void MomentumBalance::serialize(StateArchive& memory) {
     for (EnergyMomentum& sum : *sums) sum.serialize(memory);
   separation_.serialize(memory);
   limit_separation_.serialize(memory);
+  if (sleeps_) sleep_.serialize(memory);
   memory.visit_fixed(mimics_);
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
   if (memory.reads()) at_start_ = contents(moved_, start_);
@@ -101,6 +103,7 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
   }
   for (std::size_t i = 0; i < mimics_.size(); ++i) mimics_[i] += account.mimics()[i];
   (by_limits ? limit_separation_ : separation_) += account.separation();
+  sleep_ += account.sleep();
   now_ = end;
 }
 

@@ -93,6 +93,8 @@ class MomentumBalance {
   std::vector<EnergyMomentum> stabilisation_;
   std::vector<double> mimics_;
   EnergyMomentum separation_, limit_separation_;  // of contacts; of steps with limits only
+  bool sleeps_;
+  EnergyMomentum sleep_;
   State<double> start_, now_;
   EnergyMomentum at_start_;
   Kinematics k_, k_end_;

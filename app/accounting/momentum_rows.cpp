@@ -35,6 +35,7 @@ std::vector<EnergyRow> MomentumBalance::energy_rows(const Simulation& simulation
   if (limit_separation_.work != 0)
     rows.push_back({EnergyRowKind::limit_stabilisation, name_of_limits(model, contacts),
                     limit_separation_.work});
+  if (sleep_.work != 0) rows.push_back({EnergyRowKind::sleep, "sleep", sleep_.work});
   return rows;
 }
 
@@ -102,6 +103,8 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
   if (!limit_separation_.impulse.isZero(0) || !limit_separation_.moment.isZero(0))
     add(EnergyRowKind::limit_stabilisation, name_of_limits(input_.model, contacts),
         limit_separation_);
+  if (!sleep_.impulse.isZero(0) || !sleep_.moment.isZero(0))
+    add(EnergyRowKind::sleep, "sleep", sleep_);
   for (std::size_t t = 0; t < trees_.size(); ++t)
     add(EnergyRowKind::tree, "joint/" + trees_[t].joint, through[t]);
   EnergyMomentum residual = contents(moved_, now_) - at_start_;

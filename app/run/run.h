@@ -71,6 +71,8 @@ struct SimulateResult {
   std::vector<EnergyRow> input_work;  // work of the targets of couplings; not part of the sum
   std::vector<std::string> warnings;
   int contacts = 0;  // active contact points at the last step
+  // Largest of all steps: residual of contacts and limits [m/s, rad/s], penetration [m].
+  double residual = 0, penetration = 0;
   std::optional<PostMortem> post_mortem;
   std::optional<Alarm> alarm;
   std::string alarm_words;  // text of the alarm

@@ -9,11 +9,11 @@ namespace twinarm {
 
 void SteppedRun::warn_of_errors() {
   if (unsolved_ > 0)
-    warn(residual_ > 0
+    warn(sim_.has_constrained_steps()
              ? fmt::format("in {} of {} steps the impulses of contacts and limits miss their laws "
                            "by more than the accuracy, by {} m/s at most; give a larger budget, "
                            "or accept another accuracy (docs/reference/scene_file.md)",
-                           unsolved_, result_.steps, short_number_text(residual_))
+                           unsolved_, result_.steps, short_number_text(result_.residual))
              : fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
                            unsolved_, result_.steps));
   if (unlocated_ > 0)

@@ -217,8 +217,9 @@ bool SteppedRun::one_step(double t, double h_max) {
 // Accounts for the step from t in the energy and momentum balances.
 void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
   unsolved_ += report.converged ? 0 : 1;
-  if (!report.converged && sim_.has_constrained_steps())
-    residual_ = std::max(residual_, sim_.constraints().report().step.residual);
+  if (sim_.has_constrained_steps())
+    result_.residual = std::max(result_.residual, sim_.constraints().report().step.residual);
+  if (contacts_) result_.penetration = std::max(result_.penetration, contacts_->penetration());
   unlocated_ += report.located ? 0 : 1;
   inner_.clear();
   for (const double part : energy_balance_->inner_nodes())

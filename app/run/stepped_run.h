@@ -82,7 +82,6 @@ class SteppedRun {
   std::vector<State<double>> inner_;
   std::vector<EnergyRow> carried_;  // added to the rows of these names; their sum is zero
   std::size_t next_ = 0;            // sample
-  double residual_ = 0;  // largest of steps that were not solved, since the run was resumed [m/s]
   long unsolved_ = 0, unlocated_ = 0, last_step_ = std::numeric_limits<long>::max();
   bool on_grid_ = true;
   double bound_ = 0;

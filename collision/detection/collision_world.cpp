@@ -132,6 +132,7 @@ NarrowPhase::Result CollisionWorld::narrow(const PosedShape& a, const PosedShape
 
 void CollisionWorld::use_fcl() {
   fcl_.reset(twinarm_fcl_contact());
+  last_ = {};
   for (const Geometry& geometry : geometries_) fcl_->add(geometry.shape);
 }
 
@@ -167,8 +168,36 @@ void CollisionWorld::detect(std::span<const Pose> X_WG, std::span<const double> 
                             std::vector<Contact>& out) {
   assert(static_cast<int>(X_WG.size()) == size() && margins.size() == X_WG.size());
   out.clear();
+  find_moved(X_WG, margins);
   find_pairs(X_WG, margins);
-  for (const auto& [a, b] : pairs_) collide_pair(a, b, X_WG, margins[a] + margins[b], out);
+  auto known = last_.pairs.begin();
+  auto contact = last_.contacts.begin();
+  for (const std::pair<int, int>& pair : pairs_) {
+    const auto [a, b] = pair;
+    if (!moved_[a] && !moved_[b]) known = std::lower_bound(known, last_.pairs.end(), pair);
+    if (moved_[a] || moved_[b] || known == last_.pairs.end() || *known != pair) {
+      collide_pair(a, b, X_WG, margins[a] + margins[b], out);
+      continue;
+    }
+    const auto key = [](const Contact& c) { return std::pair(c.a, c.b); };
+    contact = std::lower_bound(contact, last_.contacts.end(), pair,
+                               [&](const Contact& c, const auto& p) { return key(c) < p; });
+    for (; contact != last_.contacts.end() && key(*contact) == pair; ++contact)
+      out.push_back(*contact);
+  }
+  last_.pairs.swap(pairs_);
+  last_.contacts = out;
+}
+
+void CollisionWorld::find_moved(std::span<const Pose> X_WG, std::span<const double> margins) {
+  const auto count = static_cast<std::size_t>(size());
+  if (last_.X_WG.size() != count) last_ = {};
+  moved_.resize(count);
+  for (std::size_t id = 0; id < count; ++id)
+    moved_[id] = last_.X_WG.empty() || margins[id] != last_.margins[id] ||
+                 X_WG[id].R != last_.X_WG[id].R || X_WG[id].p != last_.X_WG[id].p;
+  last_.X_WG.assign(X_WG.begin(), X_WG.end());
+  last_.margins.assign(margins.begin(), margins.end());
 }
 
 void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vector<Contact>& out) {

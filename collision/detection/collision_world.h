@@ -76,6 +76,7 @@ class CollisionWorld {
 
  private:
   void check_pair(int a, int b) const;
+  void find_moved(std::span<const Pose> X_WG, std::span<const double> margins);
   void find_overlaps();
   void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
   NarrowPhase::Result narrow(const PosedShape& a, const PosedShape& b, double margin);
@@ -95,6 +96,14 @@ class CollisionWorld {
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box
   std::vector<Aabb> boxes_;                 // of bounded_
   std::vector<std::pair<int, int>> pairs_;
+  // Contacts of pairs at the poses and margins of the last detection are kept.
+  struct Detected {
+    std::vector<Pose> X_WG;
+    std::vector<double> margins;
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<Contact> contacts;
+  } last_;
+  std::vector<char> moved_;  // by geometry: since the last detection
   std::vector<ManifoldPoint> points_;
 };
 

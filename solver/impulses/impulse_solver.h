@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "solver/impulses/impulse_island.h"
@@ -26,6 +27,10 @@ class ImpulseSolver {
   // Writes v of the problem, and p and u of its constraints. full: else, where one interior-point
   // start does not lead to a solution, the residual is only reduced.
   ImpulseReport solve(ImpulseProblem& problem, bool full = true);
+  // Of the last solution.
+  std::span<const ImpulseIsland::Members> islands() const {
+    return {islands_.data(), island_count_};
+  }
   // Residual of the last solution in the island of this tree [m/s].
   double residual_of(int tree) const { return trees_[static_cast<std::size_t>(tree)].residual; }
   void serialize(StateArchive& archive) { archive.visit(solve_again_); }

@@ -32,7 +32,7 @@ void ConstraintWork::start_step() {
   std::fill(loops_.begin(), loops_.end(), EnergyMomentum{});
   std::fill(stabilisation_.begin(), stabilisation_.end(), EnergyMomentum{});
   std::fill(mimics_.begin(), mimics_.end(), 0);
-  separation_ = {};
+  separation_ = sleep_ = {};
   count_ = 0;
   pending_ = false;
 }

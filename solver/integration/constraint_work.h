@@ -10,6 +10,7 @@
 //                   For several loops each by its own correction alone; terms of second order in
 //                   the corrections (integration error) belong to no loop.
 //   separation      position correction of penetrating contacts and limits, likewise
+//   sleep           velocities that island_sleep.h drops, likewise
 // Allocates in the constructor.
 #pragma once
 
@@ -44,6 +45,10 @@ class ConstraintWork {
     separation_ += energy_momentum(after) - energy_momentum(before);
   }
 
+  void add_sleep(const State<double>& before, const State<double>& after) {
+    sleep_ = energy_momentum(after) - energy_momentum(before);
+  }
+
   // Impulse on link a; `work` includes that on link b.
   void add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_segment);
   void add_mimic(std::size_t mimic, double work, bool in_segment) {
@@ -58,6 +63,7 @@ class ConstraintWork {
   const std::vector<double>& mimics() const { return mimics_; }
   const std::vector<EnergyMomentum>& stabilisation() const { return stabilisation_; }  // by loop
   const EnergyMomentum& separation() const { return separation_; }
+  const EnergyMomentum& sleep() const { return sleep_; }
   // Velocity projections at constant q: two in a step of semi-implicit-xv, else one; of
   // event-driven steps the first two.
   struct Projection {
@@ -72,7 +78,7 @@ class ConstraintWork {
   Workspace<double> w_;
   std::vector<EnergyMomentum> loops_, stabilisation_;
   std::vector<double> mimics_, segment_;
-  EnergyMomentum separation_;
+  EnergyMomentum separation_, sleep_;
   State<double> unprojected_, before_, after_, trial_;
   std::vector<std::vector<double>> share_q_, share_qd_;  // corrections by loop
   std::vector<EnergyMomentum> impulse_;                  // by loop

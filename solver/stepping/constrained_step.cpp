@@ -27,9 +27,11 @@ void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   impacts_.resolve(system_, m, h, Phase::impact, report_);
   system_.accelerate(m, h);
   if (!at_instant_) couples_.apply(m, h);
-  if (solve_step(m, h, Phase::step)) aba(*model_, m.x, m.forces, m.w);
+  const bool constrained = solve_step(m, h, Phase::step);
+  if (constrained) aba(*model_, m.x, m.forces, m.w);
   before_ = m.x.qd;
   kick(m, h);
+  if (sleep_.is_on()) fall_asleep(m, h, constrained);
   update_positions(m, h);
   correct_positions(m, h);
   report.converged = report_.step.converged && report_.impact.converged;
@@ -48,6 +50,7 @@ void ConstrainedStep::serialize(StateArchive& archive, std::size_t loop_rows) {
   system_.friction.serialize(archive);
   system_.bilateral.serialize(archive, loop_rows);
   system_.solver.serialize(archive);
+  sleep_.serialize(archive);
 }
 
 // Solves for the velocities at the end of the step and the constraint forces; false if there are no
@@ -108,6 +111,25 @@ bool ConstrainedStep::extend_detection(IntegrationState& m, double h) {
   return found;
 }
 
+void ConstrainedStep::fall_asleep(IntegrationState& m, double h, bool constrained) {
+  using Islands = std::span<const ImpulseIsland::Members>;
+  sleep_.update({system_.problem, constrained ? system_.solver.islands() : Islands(),
+                 system_.velocity, system_.solver.accuracy.accepted, h});
+  if (m.account) before_change_ = m.x;
+  for (std::size_t dof = 0; dof < model_->nv; ++dof)
+    if (sleep_.is_asleep(system_.trees.tree_of_dof(dof))) m.x.qd[dof] = 0;
+  if (m.account) m.account->add_sleep(before_change_, m.x);
+}
+
+int ConstrainedStep::bodies_asleep() const {
+  int count = 0;
+  for (int body = 1; body < model_->body_count(); ++body) {
+    const int tree = system_.trees.tree_of(body);
+    count += tree != ImpulseConstraint::no_tree && sleep_.is_asleep(tree);
+  }
+  return count;
+}
+
 // q' = q exp(h v'). Free bodies under gravity alone use the mean of v and v': exact free fall and
 // energy, so that a bouncing ball keeps its height.
 void ConstrainedStep::update_positions(IntegrationState& m, double h) {
@@ -135,7 +157,7 @@ void ConstrainedStep::update_positions(IntegrationState& m, double h) {
 void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
   const auto needed = [](const ConstraintSource* s) { return s->needs_position_correction(); };
   if (std::none_of(system_.sources.begin(), system_.sources.end(), needed)) return;
-  if (m.account) penetrating_ = m.x;
+  if (m.account) before_change_ = m.x;
   system_.begin_problem();
   system_.add_sources({m.k, system_.trees, m.x, Phase::position_correction, h});
   system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::position_correction);
@@ -143,7 +165,7 @@ void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
   system_.solver.solve(system_.problem, /*full=*/false);
   system_.trees.scatter(system_.problem, delta_);
   integrate_coordinates(*model_, m.x.q, delta_, m.x.q);
-  if (m.account) m.account->add_separation(penetrating_, m.x);
+  if (m.account) m.account->add_separation(before_change_, m.x);
 }
 
 }  // namespace twinarm

@@ -7,6 +7,7 @@
 //   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p with u' >= -g/h for gaps g.
 //              M' includes the implicit terms of ABA. Free bodies use the gyroscopic moment of
 //              their mean velocity (gyroscopic_step.h).
+//   sleep      velocities of islands at rest become zero (island_sleep.h), if it is on
 //   position   q' = q + h v'; q + h (v + v')/2 for free bodies under gravity alone
 //   separation penetration above a tolerance is reduced by the smallest motion in the norm of M,
 //              without effect on velocities
@@ -23,6 +24,7 @@
 #include "solver/stepping/constraint_system.h"
 #include "solver/stepping/gyroscopic_step.h"
 #include "solver/stepping/impacts.h"
+#include "solver/stepping/island_sleep.h"
 
 namespace twinarm {
 
@@ -50,6 +52,10 @@ class ConstrainedStep {
   }
   void serialize(StateArchive& archive, std::size_t loop_rows);
 
+  IslandSleep& sleep() { return sleep_; }
+  const IslandSleep& sleep() const { return sleep_; }
+  int bodies_asleep() const;
+
   const ConstraintReport& report() const { return report_; }
   // Of the last step.
   const std::vector<double>& coulomb_torque() const { return system_.friction.torque(); }
@@ -61,6 +67,7 @@ class ConstrainedStep {
  private:
   bool solve_step(IntegrationState& m, double h, Phase phase);
   bool extend_detection(IntegrationState& m, double h);
+  void fall_asleep(IntegrationState& m, double h, bool constrained);
   void update_positions(IntegrationState& m, double h);
   void correct_positions(IntegrationState& m, double h);
 
@@ -68,12 +75,13 @@ class ConstrainedStep {
   ConstraintSystem system_;
   Impacts impacts_;
   GyroscopicCouples couples_;
+  IslandSleep sleep_;
   ConstraintReport report_;
   bool at_instant_ = false;
   std::vector<char> is_free_;   // by tree: no constraint impulse
   std::vector<double> before_;  // velocities at the start of the velocity phase
   std::vector<double> constraint_, delta_, sum_;
-  State<double> penetrating_;  // before position correction
+  State<double> before_change_;  // by sleep or position correction
 };
 
 }  // namespace twinarm

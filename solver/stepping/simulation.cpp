@@ -87,6 +87,11 @@ void Simulation::locate_events() {
   located_.emplace();
 }
 
+void Simulation::set_sleep(double speed) {
+  if (located_ && speed > 0) throw std::invalid_argument("event-driven steps put nothing to sleep");
+  constrained_.sleep().set_speed(speed);
+}
+
 void Simulation::set_integrator(Integrator integrator, double tolerance) {
   check_parts({integrator, located_.has_value(), m_.sources, constrained_.system().sources});
   integrator_step_.set_integrator(integrator, tolerance);

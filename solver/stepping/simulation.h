@@ -50,6 +50,9 @@ class Simulation {
   void set_impulse_effort(double accuracy, double budget) {
     constrained_.system().set_effort(accuracy, budget);
   }
+  // Islands at rest are put to sleep (island_sleep.h): largest velocity at rest [m/s, rad/s].
+  // Throws std::invalid_argument after locate_events().
+  void set_sleep(double speed);
   // Replaces the loop closures. Throws InputError with all errors; loops must be closed at the
   // current state (close_loops()). Velocities are projected, as in an impact. From then on
   // set_state() and prescribe() throw if they open a loop.

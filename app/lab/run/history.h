@@ -57,6 +57,8 @@ struct LabFrame {
   // Since the frame before: processor time per step, mean and maximum [s]; real-time factor divided
   // by the requested one.
   double step_time = 0, longest_step = 0, pace = 1;
+  double residual = 0;                 // of contacts and limits in the last step [m/s, rad/s]
+  int asleep = 0;                      // bodies (solver/stepping/island_sleep.h)
   std::vector<VariantFrame> variants;  // from the second on
 };
 

@@ -145,6 +145,9 @@ LabFrame LabRun::frame(LabNames& names) {
     frame.outside_bytes = account.bytes().size();
   }
   frame.input_stamp = input_.stamp;
+  const ConstrainedStep& step = run_->simulation().constraints();
+  frame.residual = step.report().step.residual;
+  frame.asleep = step.bodies_asleep();
   return frame;
 }
 

@@ -68,6 +68,7 @@ class LabChannels : public RunChannels {
 
  private:
   std::size_t mouse_ = 0, hand_ = 0, time_ = 0;  // indices of the first ones
+  std::size_t contacts_ = 0;                     // likewise; 0: none
 };
 
 // Reused for all frames, so that nothing is allocated at its full size.

@@ -80,6 +80,11 @@ LabChannels::LabChannels(const SimulateInput& input, const RecordingHeader& head
   time_ = add("time/step", "s", "time", "step");
   add("time/longest", "s", "time", "step");
   add("time/speed_ratio", "1", "time", "speed_ratio");
+  if (input.scene && input.scene->may_touch()) {
+    contacts_ = add("contacts/residual", "m/s", "contacts", "residual");
+    add("contacts/penetration", "m", "contacts", "penetration");
+    add("contacts/asleep", "1", "contacts", "asleep");
+  }
 }
 
 bool LabChannels::add_pairs(const LabFrame& frame) {
@@ -100,6 +105,12 @@ void LabChannels::values(const LabFrame& frame, const Snapshot& snapshot, SceneC
   values[time_] = frame.step_time;
   values[time_ + 1] = frame.longest_step;
   values[time_ + 2] = frame.pace;
+  if (contacts_ == 0) return;
+  values[contacts_] = frame.residual;
+  values[contacts_ + 1] = 0;
+  for (const RecordedContact& c : frame.recorded.contacts)
+    values[contacts_ + 1] = std::max(values[contacts_ + 1], c.depth);
+  values[contacts_ + 2] = frame.asleep;
 }
 
 }  // namespace twinarm

@@ -39,6 +39,8 @@ class JsonOutput : public RunOutput {
   void end(const SimulateResult& result) override {
     json_.end_array();
     json_.put("contacts", result.contacts);
+    json_.members(
+        {{"largest_residual", result.residual}, {"largest_penetration", result.penetration}});
     write_rows("energy_balance", result.energy_balance);
     json_.key("momentum").object([&] {
       for (const MomentumRow& row : result.momentum)

@@ -104,9 +104,10 @@ class TableOutput : public RunOutput {
     energy_balance.add({"change of kinetic energy", cell(sum)});
     fmt::print("{}\n{}", energy_balance.str(), momentum_table(result));
     if (result.contacts > 0)
-      fmt::print("\n{} at the end\n",
+      fmt::print("\n{} at the end; in all steps penetration up to {} m, residual up to {} m/s\n",
                  result.contacts == 1 ? "1 active contact point"
-                                      : fmt::format("{} active contact points", result.contacts));
+                                      : fmt::format("{} active contact points", result.contacts),
+                 cell(result.penetration), cell(result.residual));
   }
 
  private:

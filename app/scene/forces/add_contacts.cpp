@@ -82,6 +82,9 @@ void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticLi
                     "an implicit coupling cannot be combined with contact = \"event\"",
                     "give discretization = \"explicit\", or contact = \"rigid\"",
                     "scene.discretization"});
+  if (locates_events(scene) && scene.description.sleep > 0)
+    faults.add({file, 0, "sleep", "cannot be combined with contact = \"event\"",
+                "remove the key, or give contact = \"rigid\"", "scene.sleep"});
   if (integrator == Integrator::semi_implicit) return;
   const auto fault = [&](const std::string& what, const char* fix) {
     faults.add({file, 0, "integrator",
@@ -101,6 +104,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
   if (!loops.empty()) simulation.set_loops(std::move(loops));
   const bool may_touch = scene.may_touch();
   simulation.set_impulse_effort(scene.description.accuracy, scene.description.budget);
+  simulation.set_sleep(scene.description.sleep);
   if (may_touch) {
     contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
                                        ? ContactResponse::compliant
@@ -211,6 +215,14 @@ int SceneContacts::contact_count() const {
   if (!contacts_) return 0;
   return static_cast<int>(std::ranges::count_if(
       contacts_->points(), [](const ContactPoint& point) { return !point.force_W.isZero(0); }));
+}
+
+double SceneContacts::penetration() const {
+  double deepest = 0;
+  if (contacts_)
+    for (const ContactPoint& point : contacts_->points())
+      deepest = std::max(deepest, point.contact.depth);
+  return deepest;
 }
 
 void LimitWatch::look(double t, const State<double>& x) {

@@ -37,7 +37,8 @@ class SceneContacts {
   std::vector<EnergyRow> rows() const;
   // Of the contacts, summed over the geometries of a link: consecutive ones with the link's name.
   std::vector<ContactWork> work_by_names() const;
-  int contact_count() const;  // active contact points at the last step
+  int contact_count() const;   // active contact points at the last step
+  double penetration() const;  // largest at the last step [m]
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
   // Of the last step; null if the scene has none (limits() may also be empty).

@@ -32,6 +32,7 @@ enum class EnergyRowKind {
   contact_stabilisation,
   constraint,
   constraint_stabilisation,
+  sleep,
   tree,  // impulse through the root joint of a tree
   outside,
   numerical,

@@ -130,8 +130,8 @@ Value value_of_text(const std::string& text) {
   return Value::numbers(numbers);
 }
 
-constexpr std::array kOptional{"gravity",   "step",     "integrator", "contact",
-                               "detection", "duration", "accuracy",   "budget"};
+constexpr std::array kOptional{"gravity",  "step",     "integrator", "contact", "detection",
+                               "duration", "accuracy", "budget",     "sleep"};
 
 // Adds an optional top-level key, so that a path can denote it.
 void add_optional_key(const std::string& name, int line, Value& scene) {

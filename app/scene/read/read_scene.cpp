@@ -59,6 +59,7 @@ void SceneReader::read(const Value& root) {
   scene.duration = table.positive("duration");
   scene.accuracy = table.positive("accuracy").value_or(scene.accuracy);
   scene.budget = table.positive("budget").value_or(scene.budget);
+  scene.sleep = table.positive("sleep").value_or(scene.sleep);
   if (const auto law = table.choice("contact", kContactModes))
     scene.contact = static_cast<ContactMode>(*law);
   if (const auto detection = table.choice("detection", kDetections))

@@ -159,6 +159,7 @@ struct SceneDescription {
   Detection detection = Detection::own;
   double accuracy = 5e-9;  // of contact impulses: residual of the laws [m/s]
   double budget = 0;       // of contact impulses: operations per simulated second [1/s]; 0: none
+  double sleep = 0;        // largest velocity at which islands fall asleep [m/s, rad/s]; 0: none do
   std::optional<Integrator> integrator;
   std::optional<double> duration;  // [s]; the command line overrides it
   std::vector<RobotInScene> robots;

@@ -81,11 +81,12 @@ bool is_torsional_table(const Value& table) {
 }
 
 // Keys without a row.
-constexpr std::array<std::pair<const char*, const char*>, 17> kOtherUnits{
+constexpr std::array<std::pair<const char*, const char*>, 18> kOtherUnits{
     {{"step", "s"},
      {"duration", "s"},
      {"accuracy", "m/s"},
      {"budget", "1/s"},
+     {"sleep", "m/s"},
      {"gravity", "m/s²"},
      {"mass", "kg"},
      {"density", "kg/m³"},

@@ -96,6 +96,9 @@ TEST_CASE("lab frame: channels and works are those of the recorded frame, by nam
   CHECK(std::isnan(at("mouse_spring")));
   CHECK(std::isnan(at("device/force")));
   CHECK(at("time/speed_ratio") == frame.pace);
+  CHECK(at("contacts/residual") == frame.residual);
+  CHECK(at("contacts/penetration") < 1e-3);
+  CHECK(at("contacts/asleep") == 0);
   REQUIRE(frame.recorded.works.size() == watched.names.rows.size());
   for (std::size_t i = 0; i < frame.recorded.works.size(); ++i)
     CHECK(read.works[frame.recorded.rows[i]] == frame.recorded.works[i]);
