@@ -2,12 +2,6 @@
 
 #include <pthread.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/film/filmed_run.h"
-#include "app/support/progress.h"
-
 namespace twinarm {
 namespace {
 

@@ -1,11 +1,5 @@
 #include "app/lab/session/run_loop.h"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
-#include "app/servo/haptic_loop.h"
-
 namespace twinarm {
 namespace {
 

@@ -1,10 +1,5 @@
 #include "app/lab/session/session_status.h"
 
-#include <algorithm>
-#include <deque>
-#include <tuple>
-#include <utility>
-
 namespace twinarm {
 namespace {
 

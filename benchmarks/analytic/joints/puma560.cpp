@@ -13,7 +13,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
 using puma560::Joints;
 
 struct PumaLink {

@@ -12,8 +12,6 @@
 namespace twinarm {
 namespace {
 
-using namespace loop_parts;
-
 constexpr double k_coupler = 8e5, b_coupler = 4e4, rest_length = 0.5;
 const Vector3 kRodMiddle(0.5, 0, 0);  // in link axes
 constexpr double kSide = 0.05;        // of slider and hinges from the axis

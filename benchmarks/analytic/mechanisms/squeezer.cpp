@@ -13,8 +13,6 @@
 namespace twinarm {
 namespace {
 
-using namespace loop_parts;
-
 constexpr double rr = 7e-3, ra = 92e-5, d = 28e-3, da = 115e-4, e = 2e-2, ea = 1421e-5, ss = 35e-3,
                  sa = 1874e-5, sb = 1043e-5, sc = 18e-3, sd = 2e-2, zt = 4e-2, ta = 2308e-5,
                  tb = 916e-5, u = 4e-2, ua = 1228e-5, ub = 449e-5, zf = 2e-2, fa = 1421e-5;

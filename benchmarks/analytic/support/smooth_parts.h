@@ -12,7 +12,7 @@
 #include "solver/forces/force_source.h"
 #include "solver/model/workspace.h"
 
-namespace twinarm::smooth_parts {
+namespace twinarm {
 
 using ModelRef = const Model<double>&;
 using StateRef = const State<double>&;
@@ -120,4 +120,4 @@ CaseObserver absolute_angles();
 // Solution of the equations of motion `rates` from (q, qd) at time 0.
 std::function<CaseReadings(double)> solution_of(special::Rates rates, special::Numbers start);
 
-}  // namespace twinarm::smooth_parts
+}  // namespace twinarm
