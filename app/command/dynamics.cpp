@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <string>
-
 #include "app/command/command.h"
 #include "app/data/tables.h"
 #include "app/robot/dynamics.h"

@@ -1,4 +1,3 @@
-#include "app/device/vrpn_client.h"
 
 #include <fmt/format.h>
 

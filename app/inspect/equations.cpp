@@ -1,8 +1,6 @@
 #include "app/inspect/inspection.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <utility>
 
 namespace twinarm {
 namespace {

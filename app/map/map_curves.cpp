@@ -1,9 +1,5 @@
 #include "app/map/map_results.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
 #include "coupling/analysis/prediction.h"
 #include "coupling/analysis/step_matrix.h"
 

@@ -2,12 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <set>
-
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/scene/forces/add_contacts.h"

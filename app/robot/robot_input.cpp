@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/mimic.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -3,9 +3,6 @@
 #include <chrono>
 #include <thread>
 
-#include "solver/support/diagnostics.h"
-#include "solver/support/number_text.h"
-
 namespace twinarm {
 namespace {
 

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "app/support/files.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/target_robot.h"
 
 namespace twinarm {
 namespace {

@@ -1,8 +1,6 @@
 // Output of `twinarm zwidth`: table, JSON, CSV, pictures.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "app/data/json_writer.h"

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/inspect/inspection.h"
-
 namespace twinarm {
 namespace {
 

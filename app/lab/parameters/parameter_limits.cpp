@@ -4,15 +4,8 @@
 // not), then bisected on a logarithmic scale to one percent.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-
 #include "app/diagnose/coupled_step.h"
 #include "app/lab/parameters/parameters.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

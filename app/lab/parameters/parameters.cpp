@@ -1,4 +1,3 @@
-#include "app/lab/parameters/parameters.h"
 
 #include <unordered_map>
 

@@ -1,11 +1,7 @@
 // Parameters of couplings: type, discretization, gains, rate, and those of the target.
-#include <algorithm>
-#include <cmath>
 
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/read/read_scene.h"
-#include "coupling/laws/coupling_spec.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::parameter_makers {
 namespace {

@@ -2,9 +2,7 @@
 
 #include <exception>
 
-#include "app/lab/run/lab_run.h"
 #include "app/lab/run/variants.h"
-#include "app/servo/haptic_loop.h"
 
 namespace twinarm {
 namespace {

@@ -1,4 +1,3 @@
-#include "app/lab/session/scene_builder_thread.h"
 
 #include <pthread.h>
 

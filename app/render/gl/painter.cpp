@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 #include "app/render/gl/scene_pass.h"
 #include "app/render/text/lettering.h"

@@ -1,11 +1,7 @@
 // Constraints and couplings: from names to bodies of the model.
 
 #include "app/scene/model/scene_builder.h"
-#include "coupling/laws/coupling_spec.h"
-#include "coupling/laws/mujoco_weld.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/spatial/rotation_to_axis.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -1,11 +1,7 @@
 // Geometries, their surfaces, and the pairs without contacts.
-#include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"
-#include "collision/import/robot/robot_model.h"
 
 namespace twinarm {
 namespace {

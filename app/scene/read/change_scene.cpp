@@ -1,12 +1,7 @@
 #include "app/scene/read/change_scene.h"
 
-#include <algorithm>
-#include <array>
-
-#include "app/scene/read/scene_description.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

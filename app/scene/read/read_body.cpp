@@ -1,10 +1,8 @@
 // Bodies with their shapes: primitives (collision/shapes/shape.h) and meshes.
-#include <cstdint>
 
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

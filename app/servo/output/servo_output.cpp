@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
-#include "app/data/value.h"
 #include "app/plot/gnuplot.h"
 #include "app/record/record_run.h"
 #include "app/support/progress.h"

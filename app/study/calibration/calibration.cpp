@@ -1,4 +1,3 @@
-#include "app/study/calibration/calibration.h"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,6 @@
 #pragma once
 
 #include "app/study/calibration/calibration.h"
-#include "app/support/progress.h"
 
 namespace twinarm {
 
