@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/study/calibration/identify.h"
+#include "app/study/calibration/calibration.h"
 #include "collision/import/urdf/urdf.h"
 #include "solver/support/atomic_file.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlopt.hpp>
 
-#include "app/study/calibration/identify.h"
+#include "app/study/calibration/calibration.h"
 
 namespace twinarm {
 namespace {

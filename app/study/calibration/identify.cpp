@@ -1,4 +1,4 @@
-#include "app/study/calibration/identify.h"
+#include "app/study/calibration/calibration.h"
 
 #include <fmt/format.h>
 

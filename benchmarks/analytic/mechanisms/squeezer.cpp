@@ -5,7 +5,6 @@
 // rotates about B by gamma and has E and the spring's end D; K5 and K7 rotate about A by delta and
 // epsilon, with H and G at their ends, about which K4 and K6 rotate by Phi and Omega; both end in
 // E.
-#include <array>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/forces/spring.h"

@@ -1,16 +1,10 @@
 // Mechanisms, observers and error measures of the cases without contact.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_source.h"
-#include "solver/model/workspace.h"
 
 namespace twinarm {
 
