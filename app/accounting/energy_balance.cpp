@@ -1,9 +1,5 @@
 #include "app/accounting/energy_balance.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/world_kinematics.h"
 

@@ -15,15 +15,8 @@
 // event-driven steps from the change of the tree's momentum.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "app/accounting/energy_balance.h"
 #include "app/scene/forces/add_contacts.h"
-#include "app/scene/forces/reported_forces.h"
-#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 

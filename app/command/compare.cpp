@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <thread>
 
@@ -57,38 +56,21 @@ double expected_seconds(const CaseSelection& selection) {
   return sum / std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Runs all cases. Their durations are not known before: each counts equally in the progress bar.
-std::vector<CompareRow> run_all(const CaseSelection& selection,
-                                const std::vector<Integration>& integrations, Progress& progress,
-                                double share) {
+// make(i) of all cases. Their durations are not known before: each counts equally in the part of
+// the progress bar that ends at `end`.
+template <class Make>
+auto for_cases(const CaseSelection& selection, Progress& progress, double begin, double end,
+               Make make) {
   const std::size_t count = selection.cases.size();
-  std::vector<CompareRow> rows(count);
+  std::vector<decltype(make(0))> made(count);
   parallel_for(
-      count, [&](std::size_t i) { rows[i] = run_one(*selection.cases[i], integrations); },
+      count, [&](std::size_t i) { made[i] = make(i); },
       [&](std::size_t done) {
         check_interrupt();
-        if (done < count)
-          progress.at(selection.cases[done]->name,
-                      share * static_cast<double>(done) / static_cast<double>(count));
+        const double share = static_cast<double>(done) / static_cast<double>(count);
+        if (done < count) progress.at(selection.cases[done]->name, begin + share * (end - begin));
       });
-  return rows;
-}
-
-std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
-                                       const std::vector<Integration>& integrations,
-                                       Progress& progress, double share) {
-  const std::size_t count = rows.size();
-  std::vector<std::string> sections(count);
-  parallel_for(
-      count,
-      [&](std::size_t i) { sections[i] = compare_page::case_section(rows[i], integrations); },
-      [&](std::size_t done) {
-        check_interrupt();
-        if (done < count)
-          progress.at(rows[done].test->name,
-                      1 - share + share * static_cast<double>(done) / static_cast<double>(count));
-      });
-  return sections;
+  return made;
 }
 
 int run_compare(const CompareOptions& options, const Words& typed) {
@@ -106,15 +88,19 @@ int run_compare(const CompareOptions& options, const Words& typed) {
   faults.check();
 
   constexpr double kPageShare = 0.75;  // of the duration, measured
+  const double run_share = page.empty() ? 1 : 1 - kPageShare;
   std::vector<CompareRow> rows;
   if (!options.json)
     print_error("twinarm: cases: {}, about {:.0f} s\n", selection.cases.size(),
-                std::ceil(expected_seconds(selection) / (page.empty() ? 1 : 1 - kPageShare)));
+                std::ceil(expected_seconds(selection) / run_share));
   {
     Progress progress(false, Progress::kPatience);
-    rows = run_all(selection, integrations, progress, page.empty() ? 1 : 1 - kPageShare);
+    rows = for_cases(selection, progress, 0, run_share,
+                     [&](std::size_t i) { return run_one(*selection.cases[i], integrations); });
     if (!page.empty()) {
-      const auto sections = make_sections(rows, integrations, progress, kPageShare);
+      const auto sections = for_cases(selection, progress, run_share, 1, [&](std::size_t i) {
+        return compare_page::case_section(rows[i], integrations);
+      });
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
                                                      command_line(typed), progress.seconds()));
     }

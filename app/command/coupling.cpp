@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include "app/command/command.h"
 #include "app/coupling/prediction.h"

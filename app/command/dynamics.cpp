@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <string>
-
 #include "app/command/command.h"
 #include "app/data/tables.h"
 #include "app/robot/dynamics.h"
@@ -146,20 +143,18 @@ std::string max_input(const RobotInput& input) {
 // Throws if a result is not finite.
 void check_finite(const std::string& file, const RobotInput& input, const Dynamics& d) {
   std::string names;
-  const auto check = [&](const char* name, bool finite) {
-    if (!finite) names += (names.empty() ? "" : ", ") + std::string(name);
-  };
-  check("qdd", d.qdd.allFinite());
-  check("tau_inverse", d.tau_inverse.allFinite());
-  check("base_wrench", (d.base_force + d.base_torque).allFinite());
-  check("mass_matrix", d.mass_matrix.allFinite());
-  check("bias", d.bias.allFinite());
-  check("gravity", d.gravity.allFinite());
-  check("kinetic_energy", std::isfinite(d.kinetic_energy));
-  check("potential_energy", std::isfinite(d.potential_energy));
-  check("com", d.com.allFinite());
-  check("linear_momentum", d.linear_momentum.allFinite());
-  check("angular_momentum", d.angular_momentum.allFinite());
+  for (const auto& [name, is_finite] : {std::pair{"qdd", d.qdd.allFinite()},
+                                        {"tau_inverse", d.tau_inverse.allFinite()},
+                                        {"base_wrench", (d.base_force + d.base_torque).allFinite()},
+                                        {"mass_matrix", d.mass_matrix.allFinite()},
+                                        {"bias", d.bias.allFinite()},
+                                        {"gravity", d.gravity.allFinite()},
+                                        {"kinetic_energy", std::isfinite(d.kinetic_energy)},
+                                        {"potential_energy", std::isfinite(d.potential_energy)},
+                                        {"com", d.com.allFinite()},
+                                        {"linear_momentum", d.linear_momentum.allFinite()},
+                                        {"angular_momentum", d.angular_momentum.allFinite()}})
+    if (!is_finite) names += (names.empty() ? "" : ", ") + std::string(name);
   if (names.empty()) return;
   const std::string first = d.first_bad.empty() ? "" : "; the first is " + d.first_bad;
   throw InputError({{file, 0, "", "not finite in this state: " + names + first,

@@ -3,8 +3,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <optional>
 
 #include "app/command/command.h"
 #include "app/device/devices.h"

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <optional>
 
 #include "app/command/command.h"
 #include "app/inspect/report/inspect_output.h"

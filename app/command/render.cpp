@@ -1,6 +1,5 @@
 // `twinarm render`: pictures and videos of a recording, a scene or a robot.
 #include <fmt/format.h>
-#include <cmath>
 
 #include "app/command/command.h"
 #include "app/data/json_writer.h"

@@ -1,7 +1,5 @@
-#include "app/coupling/prediction.h"
 
 #include <fmt/format.h>
-#include <numbers>
 
 #include "app/coupling/posed_couplings.h"
 #include "app/data/json_writer.h"

@@ -1,10 +1,5 @@
 #include "app/coupling/posed_couplings.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "solver/dynamics/dynamics.h"
-
 namespace twinarm {
 
 using Eigen::Index;

@@ -1,8 +1,5 @@
-#include "app/coupling/prediction.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 #include "app/coupling/posed_couplings.h"
 #include "app/robot/robot_output.h"

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "app/coupling/prediction.h"
 #include "app/data/tables.h"
 

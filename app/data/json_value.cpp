@@ -3,7 +3,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
-#include <utility>
 
 #include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"

@@ -4,9 +4,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "app/data/value.h"
 #include "solver/spatial/pose.h"

@@ -5,7 +5,6 @@
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/operator_motion.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/scripted_motion.h"
 #include "coupling/target/synthetic_operator.h"

@@ -3,7 +3,6 @@
 #include <linux/input-event-codes.h>
 #include <linux/joystick.h>
 
-#include <algorithm>
 #include <cstring>
 
 namespace twinarm {

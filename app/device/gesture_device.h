@@ -11,9 +11,7 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "app/device/file_descriptors.h"
 #include "coupling/device/desktop_input.h"

@@ -1,4 +1,3 @@
-#include "app/device/vrpn_client.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +7,11 @@
 #include "app/support/progress.h"
 
 namespace twinarm {
-namespace {
 
 // Bounds of the assumed report interval [s].
 constexpr double kMinReport = 0.5e-3, kLongestReport = 50e-3;
 constexpr double kFirstReport = 1.0 / 60;  // before the second report
 constexpr double kReportShare = 1.0 / 8;   // of the newest interval in the running mean
-
-}  // namespace
 
 VrpnDevice::VrpnDevice(const VrpnAddress& address, const OmniParameters& parameters,
                        const VrpnSettings& settings)

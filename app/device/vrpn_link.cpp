@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include "app/support/files.h"
 #include "app/support/progress.h"

@@ -4,8 +4,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
-#include <string>
 #include <thread>
 
 #include "app/device/file_descriptors.h"

@@ -1,8 +1,5 @@
 #include "app/diagnose/coupled_step.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/coupling/posed_couplings.h"
 #include "coupling/analysis/multi_joint_tracking.h"
 

@@ -2,14 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <optional>
-
 #include "app/record/record_run.h"
 #include "coupling/analysis/joint_space_stiffness.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -2,12 +2,8 @@
 // couplings together (app/diagnose/coupled_step.h) in the initial pose.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/diagnose/coupled_step.h"
 #include "app/diagnose/post_mortem.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -2,16 +2,10 @@
 // them (coupling/analysis/step_matrix.h), about the initial state.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "app/coupling/posed_couplings.h"
 #include "app/diagnose/post_mortem.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

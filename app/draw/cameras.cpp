@@ -1,11 +1,6 @@
 #include "app/draw/scene_view.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/support/text.h"
-#include "solver/support/diagnostics.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

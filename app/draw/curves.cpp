@@ -1,13 +1,7 @@
 #include "app/draw/curves.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "app/draw/palette.h"
 #include "app/support/text.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -2,9 +2,6 @@
 // line of the list in curves.cpp.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "app/draw/snapshot.h"
 #include "app/render/text/plot.h"
 

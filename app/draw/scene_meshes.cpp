@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <map>
-#include <memory>
-
 #include "app/draw/palette.h"
 #include "app/scene/read/read_scene.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/draw/palette.h"
 #include "coupling/device/omni.h"
 #include "solver/spatial/rotation_to_axis.h"

@@ -1,14 +1,8 @@
 // DrawList of a scene for all of its pictures: bodies and floor, then overlays.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/draw/scene_meshes.h"
 #include "app/draw/snapshot.h"
-#include "app/render/list/draw_list.h"
 
 namespace twinarm {
 

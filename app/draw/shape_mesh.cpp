@@ -1,14 +1,5 @@
 #include "app/draw/scene_meshes.h"
 
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <variant>
-
-#include "app/render/list/draw_mesh.h"
-#include "collision/geometry/convex_hull.h"
-#include "collision/import/robot/robot_model.h"
-
 namespace twinarm {
 namespace {
 

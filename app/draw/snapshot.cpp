@@ -1,11 +1,5 @@
 #include "app/draw/snapshot.h"
 
-#include <algorithm>
-#include <map>
-#include <utility>
-
-#include "solver/dynamics/energy_momentum.h"
-
 namespace twinarm {
 namespace {
 

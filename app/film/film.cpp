@@ -1,22 +1,13 @@
 #include "app/film/rendering.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "app/support/program.h"
-#include "app/support/progress.h"
 #include "app/support/text.h"
-#include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -1,15 +1,6 @@
 #include "app/film/filmed_run.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "app/record/record_run.h"
-#include "app/run/run.h"
-#include "app/support/files.h"
-#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {

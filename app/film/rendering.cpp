@@ -1,16 +1,7 @@
 #include "app/film/rendering.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "app/draw/overlays/overlays.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/render/text/plot.h"
-#include "app/robot/dynamics.h"
-#include "app/run/run.h"
 
 namespace twinarm {
 namespace {

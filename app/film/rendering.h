@@ -1,15 +1,9 @@
 // Pictures of a run, or of two side by side at the same instants, with curves below them.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "app/draw/curves.h"
 #include "app/film/filmed_run.h"
 #include "app/render/gl/painter.h"
-#include "app/render/list/image.h"
 
 namespace twinarm {
 

@@ -1,7 +1,5 @@
 #include "app/inspect/cross_checks.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "app/inspect/force_balance.h"

@@ -19,11 +19,6 @@
 // Cost O(n^4) at worst, by the Schur complements of all subtrees.
 #pragma once
 
-#include <array>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "app/inspect/inspection.h"
 #include "solver/dynamics/dynamics.h"
 

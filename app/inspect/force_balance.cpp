@@ -1,9 +1,5 @@
 #include "app/inspect/force_balance.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace twinarm {
 namespace {
 

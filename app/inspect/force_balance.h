@@ -5,10 +5,6 @@
 // Newton's and Euler's equations with 3-vectors, so the sum tests the passes.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/inspect/inspection.h"
 
 namespace twinarm {

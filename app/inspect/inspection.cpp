@@ -1,8 +1,5 @@
 #include "app/inspect/inspection.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 

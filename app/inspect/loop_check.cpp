@@ -7,8 +7,6 @@
 // in C_a; of a distance, half of its square over it, with the same g'' where g = g' = 0 and without
 // a square root. Errors are relative to the largest of: accelerations of both ends, gravity, and
 // forces over the mass they act on. Cost O(n) a loop.
-#include <algorithm>
-#include <cmath>
 
 #include "app/inspect/cross_checks.h"
 

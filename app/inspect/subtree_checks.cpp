@@ -1,13 +1,7 @@
 // D, U, u and pA from the equations of motion of each subtree; tau, a, f and qdd from those of all.
-#include <Eigen/Core>
-#include <algorithm>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "app/inspect/cross_checks.h"
-#include "app/inspect/inspection.h"
-#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {

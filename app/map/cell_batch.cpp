@@ -1,15 +1,8 @@
-#include "app/map/cell_measure.h"
 #include "app/map/map_job.h"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
 
 #include "app/scene/read/read_scene.h"
 #include "coupling/batch/batch_run.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 namespace {

@@ -1,17 +1,10 @@
-#include "app/map/cell_measure.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/data/value.h"
 #include "app/map/map_results.h"
 #include "app/record/record_run.h"
 #include "app/support/progress.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/support/atomic_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

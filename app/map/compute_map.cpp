@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <exception>
-#include <map>
 #include <mutex>
 
-#include "app/map/cell_measure.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
 #include "solver/support/atomic_file.h"

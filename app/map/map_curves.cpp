@@ -1,9 +1,5 @@
 #include "app/map/map_results.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
 #include "coupling/analysis/prediction.h"
 #include "coupling/analysis/step_matrix.h"
 
@@ -63,13 +59,12 @@ bool is_within_geometry(const SimulatePlan& plan) {
 }
 
 // Finds where `good` changes along columns of the map.
-class BoundarySearch {
- public:
+struct BoundarySearch {
   using Good = std::function<bool(const SimulatePlan&)>;
-  explicit BoundarySearch(const MapJob& job) : job_(job) {}
+  const MapJob& job;
 
   MapCurve find(const std::string& name, const Good& good) const {
-    const int columns = std::min(job_.nx(), kMaxColumns);
+    const int columns = std::min(job.nx(), kMaxColumns);
     std::vector<std::vector<double>> places;  // [column][branch], along y
     for (int i = 0; i < columns; ++i) places.push_back(column(column_at(i, columns), good));
     std::size_t branches = 0;
@@ -80,7 +75,7 @@ class BoundarySearch {
       for (int i = 0; i < columns; ++i) {
         const auto& column = places[static_cast<std::size_t>(i)];
         if (b < column.size())
-          add(curve, job_.x.at(column_at(i, columns)), job_.y.at(column[b]));
+          add(curve, job.x.at(column_at(i, columns)), job.y.at(column[b]));
         else if (!curve.x.empty() && !std::isnan(curve.x.back()))
           add(curve, NAN, NAN);
       }
@@ -89,18 +84,17 @@ class BoundarySearch {
     return curve;
   }
 
- private:
   static void add(MapCurve& curve, double x, double y) {
     curve.x.push_back(x);
     curve.y.push_back(y);
   }
   double column_at(int i, int columns) const {
-    return static_cast<double>(i) * (job_.nx() - 1) / (columns - 1);
+    return static_cast<double>(i) * (job.nx() - 1) / (columns - 1);
   }
   std::vector<double> column(double u, const Good& good) const {
-    const auto at = [&](double v) { return good(prepare_cell(job_, job_.x.at(u), job_.y.at(v))); };
-    const double length = job_.ny() - 1;
-    const int rows = std::min(job_.ny() - 1, kRows);
+    const auto at = [&](double v) { return good(prepare_cell(job, job.x.at(u), job.y.at(v))); };
+    const double length = job.ny() - 1;
+    const int rows = std::min(job.ny() - 1, kRows);
     std::vector<double> found;
     bool before = at(0);
     for (int i = 1; i <= rows; ++i) {
@@ -115,7 +109,6 @@ class BoundarySearch {
     }
     return found;
   }
-  const MapJob& job_;
 };
 
 bool has_theory(const SimulatePlan& plan) {
@@ -146,7 +139,7 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
   const SimulatePlan corner = prepare_cell(job, job.x.from, job.y.from);
   if (!has_theory(corner)) return curves;
   const auto& couplings = corner.input.scene->couplings;
-  const BoundarySearch search(job);
+  const BoundarySearch search{job};
   const auto add = [&](const std::string& name, const BoundarySearch::Good& good) {
     MapCurve curve = search.find(name, good);
     if (!curve.x.empty()) curves.push_back(std::move(curve));

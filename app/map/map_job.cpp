@@ -1,14 +1,11 @@
 #include "app/map/map_job.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 
 #include "app/record/record_run.h"
 #include "app/scene/read/change_scene.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 

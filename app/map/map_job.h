@@ -1,15 +1,7 @@
 // A parameter map: a scene, two of its parameters, a measure. The same job gives the same bytes.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "app/data/value.h"
 #include "app/map/cell_measure.h"
-#include "app/run/simulate_input.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

@@ -1,14 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-
 #include "app/data/json_writer.h"
 #include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -27,56 +22,6 @@ std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasur
     values[job.index(place.second, place.first)] = cell[static_cast<std::size_t>(measure)];
   return values;
 }
-
-}  // namespace
-
-std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
-  return answer_text([&](JsonWriter& json) {
-    write_axis(json, "x", job.x, job.x_unit);
-    write_axis(json, "y", job.y, job.y_unit);
-    json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});
-    const std::vector<double> values = values_of(job, file, job.measure);
-    json.key("values").begin_array();
-    for (int iy = 0; iy < job.ny(); ++iy)
-      json.value(std::span(values).subspan(job.index(0, iy), job.index(0, 1)));
-    json.end_array();
-    json.key("curves").list(curves, [&](const MapCurve& curve) {
-      json.object({{"name", curve.name}, {"x", curve.x}, {"y", curve.y}});
-    });
-  });
-}
-
-std::string map_csv(const MapJob& job, const TileFile& file) {
-  const auto with = [](const std::string& name, const std::string& unit) {
-    return name + "[" + unit + "]";
-  };
-  std::string text = csv_line({with(job.x.path, job.x_unit), with(job.y.path, job.y_unit)}) +
-                     ",stable[1]," + with("max_error", job.error_unit) + "," +
-                     with("mean_error", job.error_unit) + ",energy[J],passivity[J]\n";
-  for (const auto& [place, values] : file.cells)
-    text += number_text(job.x.at(place.second)) + "," + number_text(job.y.at(place.first)) +
-            csv_fields(values);
-  return text;
-}
-
-std::string map_words(const MapJob& job, const TileFile& file) {
-  const std::vector<double> stable = values_of(job, file, MapMeasure::stable);
-  const auto steady = std::ranges::count(stable, 1.0);
-  std::string words =
-      fmt::format("{} x {} cells, {} of {} stable\n", job.nx(), job.ny(), steady, stable.size());
-  if (job.measure == MapMeasure::stable) return words;
-  double min = HUGE_VAL, max = -HUGE_VAL;
-  for (const double value : values_of(job, file, job.measure))
-    if (std::isfinite(value)) min = std::min(min, value), max = std::max(max, value);
-  if (min <= max)
-    words += fmt::format("{}: {} to {} {}\n", name_of(job.measure), short_number_text(min),
-                         short_number_text(max), job.unit);
-  return words;
-}
-
-// A map as a picture: coloured cells with predicted limits on top. The axes of the drawing count
-// cells, for linear and logarithmic axes alike.
-namespace {
 
 constexpr int kWidth = 980, kHeight = 700;
 constexpr const char* kUnstable = "#5A5A5A";
@@ -223,6 +168,52 @@ std::string script(Gnuplot& gnuplot, const MapJob& job, const TileFile& file,
 
 }  // namespace
 
+std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
+  return answer_text([&](JsonWriter& json) {
+    write_axis(json, "x", job.x, job.x_unit);
+    write_axis(json, "y", job.y, job.y_unit);
+    json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});
+    const std::vector<double> values = values_of(job, file, job.measure);
+    json.key("values").begin_array();
+    for (int iy = 0; iy < job.ny(); ++iy)
+      json.value(std::span(values).subspan(job.index(0, iy), job.index(0, 1)));
+    json.end_array();
+    json.key("curves").list(curves, [&](const MapCurve& curve) {
+      json.object({{"name", curve.name}, {"x", curve.x}, {"y", curve.y}});
+    });
+  });
+}
+
+std::string map_csv(const MapJob& job, const TileFile& file) {
+  const auto with = [](const std::string& name, const std::string& unit) {
+    return name + "[" + unit + "]";
+  };
+  std::string text = csv_line({with(job.x.path, job.x_unit), with(job.y.path, job.y_unit)}) +
+                     ",stable[1]," + with("max_error", job.error_unit) + "," +
+                     with("mean_error", job.error_unit) + ",energy[J],passivity[J]\n";
+  for (const auto& [place, values] : file.cells)
+    text += number_text(job.x.at(place.second)) + "," + number_text(job.y.at(place.first)) +
+            csv_fields(values);
+  return text;
+}
+
+std::string map_words(const MapJob& job, const TileFile& file) {
+  const std::vector<double> stable = values_of(job, file, MapMeasure::stable);
+  const auto steady = std::ranges::count(stable, 1.0);
+  std::string words =
+      fmt::format("{} x {} cells, {} of {} stable\n", job.nx(), job.ny(), steady, stable.size());
+  if (job.measure == MapMeasure::stable) return words;
+  double min = HUGE_VAL, max = -HUGE_VAL;
+  for (const double value : values_of(job, file, job.measure))
+    if (std::isfinite(value)) min = std::min(min, value), max = std::max(max, value);
+  if (min <= max)
+    words += fmt::format("{}: {} to {} {}\n", name_of(job.measure), short_number_text(min),
+                         short_number_text(max), job.unit);
+  return words;
+}
+
+// A map as a picture: coloured cells with predicted limits on top. The axes of the drawing count
+// cells, for linear and logarithmic axes alike.
 std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
   Gnuplot gnuplot;
   const std::string title =

@@ -1,12 +1,6 @@
 // Results of a map job: cells, predicted limits, output, one cell.
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "app/map/map_job.h"
 
 namespace twinarm {

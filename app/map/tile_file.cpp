@@ -2,16 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string_view>
-
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/input_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -1,9 +1,6 @@
-#include <algorithm>
-#include <utility>
 
 #include "app/modes/linear_system.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/loops/constrained_dynamics.h"
 #include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 

@@ -1,10 +1,6 @@
 #include "app/modes/linear_system.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "solver/dynamics/derivatives.h"
-#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/model/mimic.h"
 

@@ -2,12 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <set>
-
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/scene/forces/add_contacts.h"
@@ -123,40 +117,6 @@ class SmoothForces {
   GivenForces given_;
 };
 
-}  // namespace
-
-ModesOf find_modes(SimulateInput& input) {
-  const std::vector<LoopClosure> loops = take_loops(input);
-  ModesOf found;
-  found.joints = input.robot.coordinates.all();
-  for (NamedJoint& body : constrained_bodies(input, loops)) found.joints.push_back(std::move(body));
-  const Model<double>& model = input.robot.model;
-  std::vector<std::string> name_of(model.nv);
-  for (const NamedJoint& joint : found.joints) {
-    const std::vector<std::string> names = names_of_velocities(name_of_part(input, joint), joint);
-    std::ranges::copy(names, name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
-  }
-  std::vector<char> is_mimic(model.nv);
-  for (const Mimic& mimic : model.mimics) is_mimic[mimic.follower] = 1;
-  std::vector<std::size_t> still;
-  for (std::size_t dof = 0; dof < model.nv; ++dof)
-    if (name_of[dof].empty() && !is_mimic[dof]) still.push_back(dof);
-
-  SmoothForces push(input);
-  found.looped = linearise_with_loops(model, input.robot.state.x, std::ref(push), loops, still);
-  if (!found.looped.system.A.allFinite())
-    throw InputError({{input.robot.robot.file.string(), 0, "",
-                       "the linearised system is not finite in this state",
-                       "see `twinarm inspect`; give smaller numbers", "state.not-finite"}});
-  for (const Mode& mode : modes_of(found.looped.system.A))
-    found.modes.push_back(by_all_velocities(found.looped, mode));
-  for (const std::size_t dof : found.looped.system.dofs) found.rows.push_back(name_of[dof]);
-  found.warnings = warnings_of(input, found.joints, found.looped.qdd);
-  return found;
-}
-
-namespace {
-
 void write_shape(JsonWriter& json, const SimulateInput& input, const ModesOf& found,
                  const Eigen::VectorXd& by_velocity) {
   json.object([&] {
@@ -205,6 +165,36 @@ std::string shape_table(const SimulateInput& input, const ModesOf& found, std::s
 }
 
 }  // namespace
+
+ModesOf find_modes(SimulateInput& input) {
+  const std::vector<LoopClosure> loops = take_loops(input);
+  ModesOf found;
+  found.joints = input.robot.coordinates.all();
+  for (NamedJoint& body : constrained_bodies(input, loops)) found.joints.push_back(std::move(body));
+  const Model<double>& model = input.robot.model;
+  std::vector<std::string> name_of(model.nv);
+  for (const NamedJoint& joint : found.joints) {
+    const std::vector<std::string> names = names_of_velocities(name_of_part(input, joint), joint);
+    std::ranges::copy(names, name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
+  }
+  std::vector<char> is_mimic(model.nv);
+  for (const Mimic& mimic : model.mimics) is_mimic[mimic.follower] = 1;
+  std::vector<std::size_t> still;
+  for (std::size_t dof = 0; dof < model.nv; ++dof)
+    if (name_of[dof].empty() && !is_mimic[dof]) still.push_back(dof);
+
+  SmoothForces push(input);
+  found.looped = linearise_with_loops(model, input.robot.state.x, std::ref(push), loops, still);
+  if (!found.looped.system.A.allFinite())
+    throw InputError({{input.robot.robot.file.string(), 0, "",
+                       "the linearised system is not finite in this state",
+                       "see `twinarm inspect`; give smaller numbers", "state.not-finite"}});
+  for (const Mode& mode : modes_of(found.looped.system.A))
+    found.modes.push_back(by_all_velocities(found.looped, mode));
+  for (const std::size_t dof : found.looped.system.dofs) found.rows.push_back(name_of[dof]);
+  found.warnings = warnings_of(input, found.joints, found.looped.qdd);
+  return found;
+}
 
 std::string modes_json(const SimulateInput& input, const ModesOf& found) {
   return answer_text([&](JsonWriter& json) {

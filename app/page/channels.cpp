@@ -1,15 +1,9 @@
-#include "app/page/channels.h"
 
 #include <zlib.h>
-
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
 
 #include "app/data/html_page.h"
 #include "app/page/page_layers.h"
 #include "app/robot/robot_output.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 

@@ -1,11 +1,6 @@
 #include "app/page/pages.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -1,10 +1,5 @@
 #include "app/page/page_layers.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace twinarm {
 namespace {
 

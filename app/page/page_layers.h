@@ -2,14 +2,7 @@
 // (app/web/src/protocol/run.ts).
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
-
-#include "app/data/json_writer.h"
 #include "app/draw/overlays/overlays.h"
-#include "app/draw/scene_view.h"
 #include "app/page/channels.h"
 
 namespace twinarm {

@@ -1,18 +1,10 @@
 #include "app/page/pages.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "app/data/html_page.h"
-#include "app/draw/overlays/overlays.h"
-#include "app/page/channels.h"
 #include "app/page/page_layers.h"
-#include "app/support/progress.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/web/web_bundle.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

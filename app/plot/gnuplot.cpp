@@ -1,7 +1,6 @@
 #include "app/plot/gnuplot.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,8 +10,6 @@
 #include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
-#include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
 
 namespace twinarm {

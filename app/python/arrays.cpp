@@ -1,8 +1,5 @@
 #include "app/python/arrays.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/support/files.h"
 #include "solver/support/number_text.h"
 

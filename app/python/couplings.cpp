@@ -1,16 +1,10 @@
 // Coupling types and predicted stability limits.
 #include <pybind11/stl.h>
 
-#include <cmath>
-#include <numbers>
-#include <optional>
-
 #include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "coupling/analysis/gains.h"
-#include "coupling/laws/coupling_spec.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -1,9 +1,5 @@
 #include "app/python/fast_arguments.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-
 namespace twinarm::python {
 namespace {
 

@@ -2,9 +2,6 @@
 // as aba() of six joints.
 #pragma once
 
-#include <array>
-#include <string>
-
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 

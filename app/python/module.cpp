@@ -1,8 +1,6 @@
 // The compiled part of the Python package `twinarm` (docs/use/python.md); interface:
 // twinarm/__init__.pyi.
-#include <cstring>
 #include <exception>
-#include <utility>
 
 #include "app/python/arrays.h"
 #include "app/support/version.h"

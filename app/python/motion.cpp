@@ -3,7 +3,6 @@
 #include "app/python/robots.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/world_kinematics.h"
-#include "solver/loops/constrained_dynamics.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm::python {

@@ -1,6 +1,4 @@
-#include <algorithm>
 
-#include "app/python/arrays.h"
 #include "app/python/fast_arguments.h"
 #include "app/python/signals.h"
 #include "solver/dynamics/derivatives.h"

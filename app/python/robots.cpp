@@ -4,15 +4,8 @@
 
 #include <pybind11/stl.h>
 
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <utility>
-
 #include "app/python/arrays.h"
-#include "app/run/simulate_input.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

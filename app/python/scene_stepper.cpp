@@ -2,12 +2,6 @@
 // Python's SceneSimulation (twinarm/_scene_simulation.py) adds names and documentation.
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <utility>
-
 #include "app/inspect/report/inspect_output.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
@@ -15,7 +9,6 @@
 #include "app/record/record_run.h"
 #include "app/run/stepped_run.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/operator_motion.h"
 
 namespace twinarm::python {
 namespace {

@@ -1,18 +1,11 @@
 // Runs a scene or a robot as `twinarm simulate` does.
 #include <pybind11/stl.h>
 
-#include <memory>
-#include <optional>
-#include <utility>
-
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "app/python/signals.h"
 #include "app/record/record_run.h"
-#include "app/run/run.h"
 #include "app/support/text.h"
-#include "solver/dynamics/kinematics.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -1,15 +1,9 @@
 // Simulation: a robot step by step.
-#include <algorithm>
-#include <cmath>
-#include <memory>
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "app/python/signals.h"
 #include "app/support/text.h"
-#include "solver/dynamics/energy_momentum.h"
-#include "solver/stepping/simulation.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -1,15 +1,12 @@
 // Quantities of the last aba() of a model, by name, in link axes.
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <memory>
 
 #include "app/inspect/inspection.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "app/support/text.h"
-#include "solver/model/field_description.h"
 
 namespace twinarm::python {
 namespace {

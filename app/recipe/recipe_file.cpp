@@ -1,8 +1,6 @@
 // Reads the TOML file of a recipe; its keys: app/recipe/README.md.
 #include "app/recipe/robot_recipe.h"
 
-#include <algorithm>
-
 #include "app/data/table_reader.h"
 #include "collision/import/robot/robot_check.h"
 

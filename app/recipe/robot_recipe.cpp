@@ -2,21 +2,15 @@
 
 #include "app/recipe/robot_recipe.h"
 
-#include <Eigen/Geometry>
 #include <bit>
-#include <cstdint>
-#include <optional>
 #include <set>
 
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
-#include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
 #include "collision/mesh_files/mesh_file.h"
-#include "collision/shapes/shape.h"
 #include "solver/support/atomic_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

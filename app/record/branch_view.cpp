@@ -1,17 +1,7 @@
 #include "app/record/record_run.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-
-#include "app/accounting/energy_balance.h"
 #include "app/data/tables.h"
 #include "app/plot/gnuplot.h"
-#include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

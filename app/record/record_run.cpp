@@ -1,11 +1,6 @@
 #include "app/record/record_run.h"
 
-#include <algorithm>
-#include <cmath>
-#include <variant>
-
 #include "app/render/list/image.h"
-#include "app/support/files.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "app/support/version.h"

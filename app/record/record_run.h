@@ -1,15 +1,7 @@
 // Records a run, and replays a recorded one.
 #pragma once
 
-#include <Eigen/Core>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "app/record/recording.h"
-#include "app/record/recording_reader.h"
 #include "app/record/unpack.h"
-#include "app/run/simulate_input.h"
 #include "app/run/stepped_run.h"
 
 namespace twinarm {

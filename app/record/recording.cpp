@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
-#include <type_traits>
 
 namespace twinarm {
 namespace {

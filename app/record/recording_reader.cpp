@@ -2,14 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "app/support/files.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -2,11 +2,7 @@
 // demand, from the keyframe before them or from the last one read.
 #pragma once
 
-#include <filesystem>
 #include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "app/record/recording.h"
 

@@ -1,7 +1,6 @@
 #include "app/record/recording.h"
 
 #include "app/support/files.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -1,21 +1,9 @@
 #include "app/record/unpack.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <string>
-#include <utility>
-
-#include "app/record/recording.h"
-#include "app/robot/dynamics.h"
-#include "app/run/run.h"
 #include "app/run/stepped_run.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
-#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 

@@ -1,18 +1,11 @@
 // Restores a recorded run from the files in the recording.
 #pragma once
 
-#include <filesystem>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <vector>
 
-#include "app/accounting/energy_balance.h"
 #include "app/record/recording_reader.h"
-#include "app/run/simulate_input.h"
 #include "app/scene/read/change_scene.h"
 #include "app/support/files.h"
-#include "solver/support/state_archive.h"
 
 namespace twinarm {
 

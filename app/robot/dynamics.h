@@ -1,8 +1,6 @@
 // The dynamics of a robot in one state, in the coordinates of coordinates.h.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "app/robot/robot_input.h"
 #include "solver/dynamics/kinematics.h"
 

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/mimic.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -55,92 +51,6 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options,
     return robot;
   });
 }
-
-}  // namespace
-
-std::vector<double> parse_list(const std::string& option, const std::string& text,
-                               DiagnosticList& faults) {
-  std::vector<double> values;
-  for (std::string item : split(text)) {
-    item.erase(0, item.find_first_not_of(' '));
-    item.erase(item.find_last_not_of(' ') + 1);
-    if (const auto value = parse_number(item)) {
-      values.push_back(*value);
-    } else {
-      faults.add(option, "'" + item + "' is not a finite number",
-                 "write numbers separated by commas", "option.number");
-      return {};
-    }
-  }
-  return values;
-}
-
-bool check_positive(const std::string& option, double value, DiagnosticList& faults,
-                    const char* unit) {
-  if (value > 0 && std::isfinite(value)) return true;
-  faults.add(option, fmt::format("must be positive{}, is {}", unit, number_text(value)), "",
-             "option.not-positive");
-  return false;
-}
-
-std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults) {
-  const std::vector<double> numbers = parse_list("--gravity", text, faults);
-  if (numbers.size() == 3) return Vector3(numbers.data());
-  if (!numbers.empty())
-    faults.add("--gravity", "has " + std::to_string(numbers.size()) + " numbers",
-               "give three: --gravity 0,0,-9.81", "option.count");
-  return std::nullopt;
-}
-
-void check_dense(const Model<double>& model, const std::filesystem::path& file) {
-  if (model.nv <= kMaxDense) return;
-  throw InputError(
-      {{file.string(), 0, "",
-        fmt::format("has {} degrees of freedom: more than {}, up to which dense matrices are "
-                    "computed",
-                    model.nv, kMaxDense),
-        "give a part of it; `twinarm simulate` and `dynamics` take O(n)", "model.too-large"}});
-}
-
-void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings) {
-  if (model.gravity.z > 0)
-    warnings.push_back(fmt::format("gravity points up: its z is {:g} m/s^2; on Earth it is -9.81",
-                                   model.gravity.z));
-}
-
-RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) {
-  if (!options.changes.empty())
-    faults.add("--set", "applies to a scene only", "leave it out, or give a scene",
-               "option.useless");
-  std::optional<Vector3> gravity;
-  if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
-  std::optional<Value> json;
-  if (!options.state.empty()) json = attempt(faults, [&] { return read_json(options.state); });
-  const auto robot = read_model_file(options, faults);
-  if (!robot) faults.check();
-
-  ModelOptions model_options;
-  model_options.floating = options.floating;
-  model_options.friction = options.friction;
-  model_options.armature = options.armature;
-  model_options.kinematic = options.kinematic;
-  auto model = attempt(
-      faults, [&] { return with_remedy([&] { return build_model(*robot, model_options); }); });
-  if (!model) faults.check();
-  if (gravity) model->gravity = from_eigen(*gravity);
-
-  const Coordinates coordinates(*model, options.floating);
-  GivenState state = default_state(*model, coordinates);
-  if (json) state = read_state(*json, options.state, *robot, *model, coordinates, state, faults);
-  faults.check();
-  std::vector<std::string> warnings;
-  for (const Diagnostic& warning : robot->warnings) warnings.push_back(to_string(warning));
-  warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
-  add_gravity_warning(*model, warnings);
-  return {*robot, std::move(*model), coordinates, std::move(state), std::move(warnings)};
-}
-
-namespace {
 
 struct StateReader {
   const std::string file_;
@@ -260,6 +170,88 @@ struct StateReader {
 };
 
 }  // namespace
+
+std::vector<double> parse_list(const std::string& option, const std::string& text,
+                               DiagnosticList& faults) {
+  std::vector<double> values;
+  for (std::string item : split(text)) {
+    item.erase(0, item.find_first_not_of(' '));
+    item.erase(item.find_last_not_of(' ') + 1);
+    if (const auto value = parse_number(item)) {
+      values.push_back(*value);
+    } else {
+      faults.add(option, "'" + item + "' is not a finite number",
+                 "write numbers separated by commas", "option.number");
+      return {};
+    }
+  }
+  return values;
+}
+
+bool check_positive(const std::string& option, double value, DiagnosticList& faults,
+                    const char* unit) {
+  if (value > 0 && std::isfinite(value)) return true;
+  faults.add(option, fmt::format("must be positive{}, is {}", unit, number_text(value)), "",
+             "option.not-positive");
+  return false;
+}
+
+std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults) {
+  const std::vector<double> numbers = parse_list("--gravity", text, faults);
+  if (numbers.size() == 3) return Vector3(numbers.data());
+  if (!numbers.empty())
+    faults.add("--gravity", "has " + std::to_string(numbers.size()) + " numbers",
+               "give three: --gravity 0,0,-9.81", "option.count");
+  return std::nullopt;
+}
+
+void check_dense(const Model<double>& model, const std::filesystem::path& file) {
+  if (model.nv <= kMaxDense) return;
+  throw InputError(
+      {{file.string(), 0, "",
+        fmt::format("has {} degrees of freedom: more than {}, up to which dense matrices are "
+                    "computed",
+                    model.nv, kMaxDense),
+        "give a part of it; `twinarm simulate` and `dynamics` take O(n)", "model.too-large"}});
+}
+
+void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings) {
+  if (model.gravity.z > 0)
+    warnings.push_back(fmt::format("gravity points up: its z is {:g} m/s^2; on Earth it is -9.81",
+                                   model.gravity.z));
+}
+
+RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) {
+  if (!options.changes.empty())
+    faults.add("--set", "applies to a scene only", "leave it out, or give a scene",
+               "option.useless");
+  std::optional<Vector3> gravity;
+  if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
+  std::optional<Value> json;
+  if (!options.state.empty()) json = attempt(faults, [&] { return read_json(options.state); });
+  const auto robot = read_model_file(options, faults);
+  if (!robot) faults.check();
+
+  ModelOptions model_options;
+  model_options.floating = options.floating;
+  model_options.friction = options.friction;
+  model_options.armature = options.armature;
+  model_options.kinematic = options.kinematic;
+  auto model = attempt(
+      faults, [&] { return with_remedy([&] { return build_model(*robot, model_options); }); });
+  if (!model) faults.check();
+  if (gravity) model->gravity = from_eigen(*gravity);
+
+  const Coordinates coordinates(*model, options.floating);
+  GivenState state = default_state(*model, coordinates);
+  if (json) state = read_state(*json, options.state, *robot, *model, coordinates, state, faults);
+  faults.check();
+  std::vector<std::string> warnings;
+  for (const Diagnostic& warning : robot->warnings) warnings.push_back(to_string(warning));
+  warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
+  add_gravity_warning(*model, warnings);
+  return {*robot, std::move(*model), coordinates, std::move(state), std::move(warnings)};
+}
 
 GivenState default_state(const Model<double>& model, const Coordinates& coordinates) {
   GivenState state;

@@ -1,18 +1,9 @@
 // Input of `dynamics` and `simulate`: a URDF, a state, gravity, and effects to ignore.
 #pragma once
 
-#include <Eigen/Core>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "app/data/value.h"
 #include "app/robot/coordinates.h"
 #include "collision/import/robot/file_search.h"
 #include "collision/import/robot/missing_inertia.h"
-#include "collision/import/robot/robot_description.h"
-#include "solver/model/model.h"
 
 namespace twinarm {
 

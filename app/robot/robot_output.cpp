@@ -1,7 +1,5 @@
 #include "app/robot/robot_output.h"
 
-#include <span>
-
 namespace twinarm {
 namespace {
 

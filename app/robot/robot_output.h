@@ -1,10 +1,6 @@
 // JSON of joint values by name, the base and the links; names and units for tables and CSV.
 #pragma once
 
-#include <Eigen/Core>
-#include <string>
-#include <vector>
-
 #include "app/data/json_writer.h"
 #include "app/robot/coordinates.h"
 #include "solver/dynamics/kinematics.h"

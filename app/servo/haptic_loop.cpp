@@ -6,8 +6,6 @@
 #include <sys/mman.h>
 
 #include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <ctime>
 
 namespace twinarm {

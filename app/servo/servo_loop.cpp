@@ -3,9 +3,6 @@
 #include <chrono>
 #include <thread>
 
-#include "solver/support/diagnostics.h"
-#include "solver/support/number_text.h"
-
 namespace twinarm {
 namespace {
 
@@ -97,24 +94,6 @@ DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, 
   }
 }
 
-}  // namespace
-
-ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
-                      const std::function<void(SpscRing<TickResult>&)>& drain) {
-  if (!plan.real_time) return run_unpaced(run, plan, stop, drain);
-  Servo servo(run, plan, stop);
-  std::thread thread([&] { servo.work(); });
-  while (!servo.is_done()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    drain(servo.ring());
-  }
-  thread.join();
-  drain(servo.ring());
-  return servo.take();
-}
-
-namespace {
-
 constexpr double kMinStep = 1e-6, kMaxStep = 0.1;  // [s]
 
 double step_of(const SceneModel& scene, const LiveOptions& options) {
@@ -174,6 +153,20 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
 }
 
 }  // namespace
+
+ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
+                      const std::function<void(SpscRing<TickResult>&)>& drain) {
+  if (!plan.real_time) return run_unpaced(run, plan, stop, drain);
+  Servo servo(run, plan, stop);
+  std::thread thread([&] { servo.work(); });
+  while (!servo.is_done()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    drain(servo.ring());
+  }
+  thread.join();
+  drain(servo.ring());
+  return servo.take();
+}
 
 LiveRun::LiveRun(const SceneModel& scene, InputDevice& device, const LiveOptions& options)
     : h_(step_of(scene, options)),

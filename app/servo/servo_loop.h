@@ -5,21 +5,11 @@
 // writes files and output.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "app/scene/forces/add_contacts.h"
 #include "app/servo/haptic_loop.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/device/input_device.h"
-#include "solver/stepping/simulation.h"
 
 namespace twinarm {
 

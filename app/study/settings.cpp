@@ -1,11 +1,6 @@
 #include "app/study/settings.h"
 
-#include <algorithm>
-#include <cmath>
-#include <type_traits>
-
 #include "app/data/table_reader.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

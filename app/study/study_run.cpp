@@ -1,10 +1,5 @@
 #include "app/study/study_run.h"
 
-#include <cmath>
-#include <numbers>
-
-#include "coupling/laws/coupling_spec.h"
-
 namespace twinarm {
 namespace {
 

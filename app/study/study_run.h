@@ -1,18 +1,10 @@
 // One run of the study: specification, result and prediction.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <string>
-#include <vector>
-
 #include "app/data/value.h"
 #include "app/study/settings.h"
-#include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/analysis/tracking.h"
-#include "coupling/target/operator_motion.h"
 #include "solver/forces/joint_stops.h"
 
 namespace twinarm {

@@ -1,16 +1,12 @@
 #include "app/support/progress.h"
 
-#include <fmt/format.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
-#include <string_view>
 
 #include "app/support/files.h"
-#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 

@@ -1,7 +1,6 @@
 #include "app/support/text.h"
 
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "solver/support/embedded_file.h"
 

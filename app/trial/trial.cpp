@@ -1,12 +1,8 @@
 #include "app/trial/trial.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/scene/read/read_scene.h"
 #include "app/servo/output/servo_output.h"
 #include "app/support/progress.h"
-#include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "app/data/json_writer.h"
@@ -9,7 +8,6 @@
 #include "app/support/text.h"
 #include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
 
 namespace twinarm {

@@ -6,8 +6,6 @@
 // The coupling's reaction goes back. The operator pushes to 20 mm beyond the wall, stays, and
 // returns. Energy put in by the operator: E_n = E_n-1 - F (x_n - x_n-1), never negative for a
 // passive robot.
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <random>
 #include <utility>

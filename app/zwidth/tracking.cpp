@@ -1,13 +1,10 @@
 // Tracking errors of driven and other joints under the same operator motion, all joints coupled.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 
+#include "coupling/analysis/tracking.h"
 #include "app/robot/robot_input.h"
 #include "app/zwidth/zwidth.h"
 #include "coupling/analysis/gains.h"
 #include "coupling/analysis/joint_space_stiffness.h"
-#include "coupling/analysis/tracking.h"
 #include "coupling/target/operator_motion.h"
 #include "coupling/target/synthetic_operator.h"
 

@@ -1,7 +1,5 @@
 // Virtual walls of the device alone, by rate, delay and damping, and in the plane of K and B;
 // stiffness of a wall through a virtual coupling: a link pressed against it by its target robot.
-#include <cmath>
-#include <limits>
 
 #include "app/zwidth/zwidth.h"
 #include "coupling/analysis/joint_space_stiffness.h"

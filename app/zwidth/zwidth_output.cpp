@@ -1,8 +1,6 @@
 // Output of `twinarm zwidth`: table, JSON, CSV, pictures.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "app/data/json_writer.h"
@@ -126,46 +124,6 @@ void write_all(JsonWriter& json, const char* key, const std::vector<Row>& rows) 
   json.key(key).list(rows, [&](const Row& row) { write(json, row); });
 }
 
-}  // namespace
-
-std::string zwidth_table(const ZwidthResult& result) {
-  return walls_text(result.walls) + "\n" + series_text(result.series) + "\n" +
-         delays_text(result.delays) + "\n" + follows_text(result.follows);
-}
-
-std::string zwidth_json(const ZwidthResult& result) {
-  return answer_text([&](JsonWriter& json) {
-    write_all(json, "walls", result.walls);
-    json.key("plane").object({{"stable_B", result.plane.stable_B},
-                              {"stable_K", result.plane.stable_K},
-                              {"passive_B", result.plane.passive_B},
-                              {"passive_K", result.plane.passive_K}});
-    write_all(json, "series", result.series);
-    write_all(json, "delays", result.delays);
-    write_all(json, "following", result.follows);
-  });
-}
-
-std::string zwidth_csv(const ZwidthResult& result) {
-  std::string text =
-      "rate[Hz],delay[ticks],b[N s/m],B[N s/m],stable_K[N/m],stable_law[N/m],passive_K[N/m],"
-      "passive_law[N/m],passive_B[N s/m],stepped_K[N/m],stepped_law[N/m]\n";
-  for (const WallRow& row : result.walls) {
-    const double numbers[] = {row.device.rate,     static_cast<double>(row.device.delay),
-                              row.device.damping,  row.wall_damping,
-                              row.stable,          row.stable_law,
-                              row.passive,         row.passive_law,
-                              row.passive_damping, row.quantized,
-                              row.quantized_law};
-    for (std::size_t c = 0; c < std::size(numbers); ++c)
-      text += (c ? "," : "") + (std::isfinite(numbers[c]) ? number_text(numbers[c]) : "");
-    text += "\n";
-  }
-  return text;
-}
-
-namespace {
-
 constexpr int kPlotWidth = 1200, kPlotHeight = 560;
 
 using LawCurve = std::vector<std::vector<double>>;  // B, K
@@ -251,6 +209,42 @@ std::string whole_script(Gnuplot& gnuplot, const ZwidthResult& result) {
 }
 
 }  // namespace
+
+std::string zwidth_table(const ZwidthResult& result) {
+  return walls_text(result.walls) + "\n" + series_text(result.series) + "\n" +
+         delays_text(result.delays) + "\n" + follows_text(result.follows);
+}
+
+std::string zwidth_json(const ZwidthResult& result) {
+  return answer_text([&](JsonWriter& json) {
+    write_all(json, "walls", result.walls);
+    json.key("plane").object({{"stable_B", result.plane.stable_B},
+                              {"stable_K", result.plane.stable_K},
+                              {"passive_B", result.plane.passive_B},
+                              {"passive_K", result.plane.passive_K}});
+    write_all(json, "series", result.series);
+    write_all(json, "delays", result.delays);
+    write_all(json, "following", result.follows);
+  });
+}
+
+std::string zwidth_csv(const ZwidthResult& result) {
+  std::string text =
+      "rate[Hz],delay[ticks],b[N s/m],B[N s/m],stable_K[N/m],stable_law[N/m],passive_K[N/m],"
+      "passive_law[N/m],passive_B[N s/m],stepped_K[N/m],stepped_law[N/m]\n";
+  for (const WallRow& row : result.walls) {
+    const double numbers[] = {row.device.rate,     static_cast<double>(row.device.delay),
+                              row.device.damping,  row.wall_damping,
+                              row.stable,          row.stable_law,
+                              row.passive,         row.passive_law,
+                              row.passive_damping, row.quantized,
+                              row.quantized_law};
+    for (std::size_t c = 0; c < std::size(numbers); ++c)
+      text += (c ? "," : "") + (std::isfinite(numbers[c]) ? number_text(numbers[c]) : "");
+    text += "\n";
+  }
+  return text;
+}
 
 std::string zwidth_svg(const ZwidthResult& result) {
   Gnuplot gnuplot;

@@ -1,6 +1,5 @@
 // Files of the study: its settings (TOML), calibration and identification (JSON).
 #include "app/study/calibration/calibration.h"
-#include "app/study/calibration/identify.h"
 #include "app/study/settings.h"
 #include "tests/fuzz/fuzz_input.h"
 

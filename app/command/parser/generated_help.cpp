@@ -102,29 +102,8 @@ A path that begins with
 and does not exist is looked up in the former.
 )";
 
-}  // namespace
-
-std::string man_page(CLI::App& program, const std::string& version) {
-  const std::vector<CommandInfo> tree = command_tree(program);
-  const std::string& title = tree.front().summary;  // "twinarm: what it is"
-  const std::string what = title.substr(std::min(title.find(": ") + 2, title.size()));
-  std::string out = fmt::format(
-      ".\\\" Made by `twinarm help --man`.\n.TH TWINARM 1 \"\" \"twinarm {}\"\n"
-      ".SH NAME\ntwinarm \\- {}\n.SH SYNOPSIS\n{} {} [{}]\n.SH DESCRIPTION\n"
-      "Options and examples of a command:\n{} {} {}.\n"
-      "Units are SI and radians unless a name says otherwise.\n",
-      version, roff(what), bold("twinarm"), italic("COMMAND"), italic("options"), bold("twinarm"),
-      italic("COMMAND"), bold("--help"));
-  for (const std::string& detail : tree.front().details) out += of_paragraph(detail);
-  for (const OptionInfo& option : tree.front().options) out += of_option(option);
-  out += ".SH COMMANDS\n";
-  for (std::size_t i = 1; i < tree.size(); ++i) out += of_command(tree[i]);
-  return out + kEnd;
-}
-
 // Completion as one function of bash or zsh, and as lines of fish. Options with a file as value
 // complete files; those with another value complete nothing.
-namespace {
 
 struct CompletedWords {
   std::string next, files, values;  // subcommands and options; options that take a file; a value
@@ -246,6 +225,24 @@ std::string fish_completion(const std::vector<CommandInfo>& tree) {
 }
 
 }  // namespace
+
+std::string man_page(CLI::App& program, const std::string& version) {
+  const std::vector<CommandInfo> tree = command_tree(program);
+  const std::string& title = tree.front().summary;  // "twinarm: what it is"
+  const std::string what = title.substr(std::min(title.find(": ") + 2, title.size()));
+  std::string out = fmt::format(
+      ".\\\" Made by `twinarm help --man`.\n.TH TWINARM 1 \"\" \"twinarm {}\"\n"
+      ".SH NAME\ntwinarm \\- {}\n.SH SYNOPSIS\n{} {} [{}]\n.SH DESCRIPTION\n"
+      "Options and examples of a command:\n{} {} {}.\n"
+      "Units are SI and radians unless a name says otherwise.\n",
+      version, roff(what), bold("twinarm"), italic("COMMAND"), italic("options"), bold("twinarm"),
+      italic("COMMAND"), bold("--help"));
+  for (const std::string& detail : tree.front().details) out += of_paragraph(detail);
+  for (const OptionInfo& option : tree.front().options) out += of_option(option);
+  out += ".SH COMMANDS\n";
+  for (std::size_t i = 1; i < tree.size(); ++i) out += of_command(tree[i]);
+  return out + kEnd;
+}
 
 std::string shell_completion(CLI::App& program, const std::string& shell) {
   if (shell == "fish") return fish_completion(command_tree(program));

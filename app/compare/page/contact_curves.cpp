@@ -1,8 +1,4 @@
 // Curves of a contact case: its experiment, recorded.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "app/compare/page/page.h"
 #include "app/support/progress.h"

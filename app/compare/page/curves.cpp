@@ -1,10 +1,6 @@
 #include "app/compare/page/page.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/support/progress.h"
-#include "solver/integration/integrator.h"
 
 namespace twinarm::compare_page {
 namespace {

@@ -1,16 +1,10 @@
 #include "app/compare/page/page.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cctype>
 #include <set>
-#include <utility>
 
 #include "app/data/html_page.h"
-#include "app/support/files.h"
 #include "app/support/text.h"
-#include "benchmarks/analytic/registry/analytic_cases.h"
 #include "solver/support/input_file.h"
 
 namespace twinarm::compare_page {

@@ -1,5 +1,4 @@
 // Section of one case.
-#include <fmt/format.h>
 
 #include <regex>
 

@@ -1,11 +1,7 @@
 #include "app/compare/page/page.h"
 #include "app/support/text.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 namespace twinarm::compare_page {
 namespace {

@@ -1,7 +1,5 @@
 // Spring-dampers between two points as springs, the others as force or torque on the link, coloured
 // by force over the largest force of the run; the mouse spring.
-#include <algorithm>
-#include <cmath>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

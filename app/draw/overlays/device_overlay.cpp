@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"
 #include "solver/spatial/rotation_to_axis.h"

@@ -1,7 +1,4 @@
 // Bars at the right: kinetic energy, potential above the run's minimum, energy of springs.
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

@@ -1,9 +1,5 @@
 // Contact forces: resultant of each pair of bodies at its centre of pressure, torques of torsional
 // and rolling friction; weights; contact points with normal and friction cone.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

@@ -6,9 +6,6 @@
 //              (RBDA section 7.1): force M a for a link that does not rotate. Semi-axes are
 //              proportional to the principal values of M: small along free joints of descendants,
 //              equal for a rigid body alone.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "app/draw/curves.h"
 #include "app/support/text.h"
 #include "solver/spatial/rotation_to_axis.h"

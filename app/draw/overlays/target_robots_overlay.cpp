@@ -1,6 +1,5 @@
 // Target robots and the previous branch, translucent where they differ from the bodies; trails of
 // the centres of mass of free bodies and last links.
-#include <algorithm>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

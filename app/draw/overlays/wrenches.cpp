@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

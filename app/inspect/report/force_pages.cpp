@@ -1,11 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/inspect/report/inspect_output.h"
-#include "app/robot/dynamics.h"
-#include "solver/loops/constrained_dynamics.h"
 
 namespace twinarm {
 namespace {

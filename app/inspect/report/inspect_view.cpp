@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/inspect/report/inspect_output.h"
 #include "app/support/text.h"
 #include "solver/model/non_finite.h"

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/inspect/inspection.h"
-
 namespace twinarm {
 namespace {
 
@@ -35,15 +30,17 @@ std::string three(const Vector3& v) {
   return fmt::format("({}, {}, {})", short_number(v.x()), short_number(v.y()), short_number(v.z()));
 }
 
-class PassPage {
- public:
-  PassPage(const Inspection& in, std::size_t body, double D_error, Sheet& sheet)
-      : in_(in), i_(body), D_error_(D_error), axes_(in, body), sheet_(sheet) {}
+struct PassPage {
+  const Inspection& in;
+  std::size_t i;
+  double D_error;
+  Sheet& sheet;
+  LinkAxes axes{in, i};
 
   // In the order of computation; quantities without an equation keep their place.
   void write(int pass) {
-    const std::vector<DisplayedQuantity> all = shown_quantities(in_, pass, i_);
-    const std::vector<Equation> equations = equations_of(in_, pass, i_);
+    const std::vector<DisplayedQuantity> all = shown_quantities(in, pass, i);
+    const std::vector<Equation> equations = equations_of(in, pass, i);
     auto next = all.begin();
     for (const Equation& equation : equations) {
       const auto made = std::find_if(next, all.end(), [&](const DisplayedQuantity& shown) {
@@ -58,12 +55,11 @@ class PassPage {
     for (; next != all.end(); ++next) write(*next);
   }
 
- private:
   void heading(const std::string& text, const DisplayedQuantity* shown) {
     if (shown)
-      sheet_.heading(text, shown->quantity.meaning, shown->unit);
+      sheet.heading(text, shown->quantity.meaning, shown->unit);
     else
-      sheet_.line("  " + text);
+      sheet.line("  " + text);
   }
 
   void write(const DisplayedQuantity& shown) {
@@ -71,31 +67,30 @@ class PassPage {
     if (shown.value.size() == 1) return heading(name + " = " + text_of(shown.value), &shown);
     heading(name, &shown);
     if (name == "Xup") {
-      sheet_.line("      r = " + three(axes_.translation_from_parent(in_.w.Xup[i_])) + ",  E =");
-      return sheet_.matrix(axes_.rotation_from_parent(in_.w.Xup[i_]));
+      sheet.line("      r = " + three(axes.translation_from_parent(in.w.Xup[i])) + ",  E =");
+      return sheet.matrix(axes.rotation_from_parent(in.w.Xup[i]));
     }
     if (name == "I") write_mass();
     write_value(name, shown.value, shown.quantity.by == Quantity::By::velocity,
                 shown.value.cwiseAbs());
   }
   void write_mass() {
-    const Inertia<double>& I = in_.model.I[i_];
-    const Vector6 h = axes_.show(Force<double>{{}, I.h});
+    const Inertia<double>& I = in.model.I[i];
+    const Vector6 h = axes.show(Force<double>{{}, I.h});
     const Vector3 com = I.m > 0 ? Vector3(h.tail<3>() / I.m) : Vector3::Zero();
-    sheet_.line(
-        fmt::format("      mass {} kg, centre of mass {} m", short_number(I.m), three(com)));
+    sheet.line(fmt::format("      mass {} kg, centre of mass {} m", short_number(I.m), three(com)));
   }
   // `size`: scale below which rounding errors are shown as 0.
   void write_value(const std::string& name, const Eigen::MatrixXd& value, bool by_columns,
                    const Eigen::MatrixXd& size) {
     if (value.rows() != 6 || (value.cols() > 1 && !by_columns))
-      return value.cols() > 1 ? sheet_.matrix(value) : write_numbers(name, value);
+      return value.cols() > 1 ? sheet.matrix(value) : write_numbers(name, value);
     for (Eigen::Index k = 0; k < value.cols(); ++k)
-      sheet_.row(value.cols() == 1 ? name : fmt::format("{}[{}]", name, k + 1), value.col(k),
-                 size.col(k));
+      sheet.row(value.cols() == 1 ? name : fmt::format("{}[{}]", name, k + 1), value.col(k),
+                size.col(k));
   }
   void write_numbers(const std::string& name, const Eigen::VectorXd& values) {
-    sheet_.line(fmt::format("      {:<22}{}", name, text_of(values)));
+    sheet.line(fmt::format("      {:<22}{}", name, text_of(values)));
   }
 
   void write(const Equation& equation, const DisplayedQuantity* shown) {
@@ -106,15 +101,15 @@ class PassPage {
       write_terms(equation, shown && shown->quantity.by == Quantity::By::velocity);
     }
     if (equation.name == "D")
-      sheet_.line(fmt::format("      cross-check with CRBA: relative difference {:.1e}", D_error_));
-    if (equation.name == "u") write_tau(in_, i_, sheet_);
+      sheet.line(fmt::format("      cross-check with CRBA: relative difference {:.1e}", D_error));
+    if (equation.name == "u") write_tau(in, i, sheet);
   }
   // With the names of the children that contribute.
   std::string equation_text(const Equation& equation) const {
     std::string others;
     for (const EquationTerm& term : equation.terms)
-      if (term.of != i_ && term.of != in_.parent(i_))
-        others += (others.empty() ? "  of " : ", ") + in_.model.body_name[term.of];
+      if (term.of != i && term.of != in.parent(i))
+        others += (others.empty() ? "  of " : ", ") + in.model.body_name[term.of];
     return equation.text + others;
   }
   static std::string sum_of_numbers(const Equation& equation) {
@@ -142,26 +137,20 @@ class PassPage {
     write_value(equation.name, equation.value, by_columns, size);
     for (const EquationTerm& term : equation.terms)
       if (term.symbol == "added_inertia") {
-        sheet_.heading("added inertia, included", term.words, "");
-        sheet_.matrix(term.value);
+        sheet.heading("added inertia, included", term.words, "");
+        sheet.matrix(term.value);
       }
   }
   void write_sum(const Equation& equation) {
     std::vector<std::pair<std::string, Vector6>> terms;
     double size = 0;
     for (const EquationTerm& term : equation.terms) {
-      const bool is_own = term.of == i_ || term.of == in_.parent(i_);
-      terms.emplace_back(is_own ? term.symbol : "of " + in_.model.body_name[term.of], term.value);
+      const bool is_own = term.of == i || term.of == in.parent(i);
+      terms.emplace_back(is_own ? term.symbol : "of " + in.model.body_name[term.of], term.value);
       size = std::max(size, term.size);
     }
-    sheet_.sum(terms, equation.name, equation.value, Vector6::Constant(size));
+    sheet.sum(terms, equation.name, equation.value, Vector6::Constant(size));
   }
-
-  const Inspection& in_;
-  std::size_t i_;
-  double D_error_;
-  LinkAxes axes_;
-  Sheet& sheet_;
 };
 
 }  // namespace
@@ -179,7 +168,7 @@ void write_body_head(const Inspection& in, std::size_t i, Sheet& sheet) {
 }
 
 void write_pass(const Inspection& in, int pass, std::size_t body, double D_error, Sheet& sheet) {
-  PassPage(in, body, D_error, sheet).write(pass);
+  PassPage{in, body, D_error, sheet}.write(pass);
 }
 
 }  // namespace twinarm

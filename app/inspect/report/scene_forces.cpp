@@ -1,15 +1,7 @@
 // Named forces of one step of a scene.
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <utility>
 
-#include "app/inspect/inspection.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/robot/dynamics.h"
 #include "app/scene/forces/add_contacts.h"
-#include "app/scene/forces/given_forces.h"
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {

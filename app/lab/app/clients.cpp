@@ -1,12 +1,6 @@
 #include "app/lab/app/clients.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <set>
-
-#include "app/data/json_writer.h"
 #include "app/lab/server/http_text.h"
-#include "app/support/files.h"
 
 namespace twinarm {
 

@@ -1,13 +1,9 @@
 #include "app/lab/app/lab_routes.h"
 
-#include <algorithm>
-
 #include "app/page/pages.h"
 #include "app/render/gl/painter.h"
 #include "app/web/web_bundle.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

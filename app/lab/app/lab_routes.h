@@ -1,15 +1,8 @@
 // HTTP requests of the lab (docs/reference/lab_protocol.md).
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "app/lab/app/message_streamer.h"
 #include "app/lab/app/uploads.h"
-#include "app/lab/server/lab_server.h"
-#include "app/lab/session/lab_session.h"
-#include "app/support/files.h"
 
 namespace twinarm {
 

@@ -2,14 +2,7 @@
 
 #include <pthread.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/film/filmed_run.h"
-#include "app/support/progress.h"
-
 namespace twinarm {
-namespace {
 
 constexpr double kIdle = 0.1;  // [s]
 // At most so many a second.
@@ -18,8 +11,6 @@ constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and 
 constexpr std::size_t kManyClients = 2;
 // Factor of the rate, for frames that the step does not permit to be evenly spaced.
 constexpr double kRateMargin = 1.05;
-
-}  // namespace
 
 MessageStreamer::MessageStreamer(LabSession& session, Clients& clients,
                                  const std::vector<GalleryScene>& gallery, Post post)

@@ -2,21 +2,10 @@
 // frames a second to one or two clients, 30 to more. Also answers HTTP requests that need the view.
 #pragma once
 
-#include <chrono>
-#include <deque>
-#include <functional>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <thread>
-#include <vector>
 
 #include "app/lab/app/clients.h"
 #include "app/lab/inspector/body_inspector.h"
-#include "app/lab/parameters/gallery.h"
-#include "app/lab/parameters/parameters.h"
-#include "app/lab/server/lab_server.h"
 #include "app/lab/server/rate_limiter.h"
 #include "app/lab/session/lab_session.h"
 #include "app/lab/stream/lab_view.h"

@@ -1,15 +1,7 @@
 #include "app/lab/inspector/body_inspector.h"
 
-#include <algorithm>
 #include <exception>
-#include <stdexcept>
-#include <string_view>
-#include <utility>
 
-#include "app/inspect/inspection.h"
-#include "app/robot/dynamics.h"
-#include "app/run/run.h"
-#include "coupling/device/device_motion.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/forces/spring.h"
 

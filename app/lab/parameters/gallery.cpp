@@ -1,11 +1,5 @@
 #include "app/lab/parameters/gallery.h"
 
-#include <fmt/format.h>
-#include <algorithm>
-
-#include "app/data/table_reader.h"
-#include "app/support/files.h"
-
 namespace twinarm {
 namespace {
 

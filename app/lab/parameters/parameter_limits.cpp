@@ -4,15 +4,8 @@
 // not), then bisected on a logarithmic scale to one percent.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-
 #include "app/diagnose/coupled_step.h"
 #include "app/lab/parameters/parameters.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -98,36 +91,34 @@ constexpr GainKey kGains[] = {
     {"rotational_damping", CoupledStep::Gain::rotational_damping, true},
     {"time_constant", CoupledStep::Gain::time_constant, false}};
 
-class Limits {
- public:
-  Limits(const SimulatePlan& plan, std::vector<LabParameter>& parameters)
-      : scene_(plan.input.scene->description),
-        step_(plan),
-        parameters_(parameters),
-        stable_now_(step_.is_stable()) {}
+struct Limits {
+  const SimulatePlan& plan;
+  std::vector<LabParameter>& parameters;
+  const SceneDescription& scene = plan.input.scene->description;
+  CoupledStep step{plan};
+  bool stable_now = step.is_stable();
 
   void add() {
-    if (step_.is_empty()) return;
-    for (LabParameter& parameter : parameters_) {
+    if (step.is_empty()) return;
+    for (LabParameter& parameter : parameters) {
       if (parameter.path == "step") add_step(parameter);
       if (!parameter.coupling) continue;
       // Soft limits are not in the prediction: inactive in the nominal pose.
       const auto coupling = static_cast<std::size_t>(*parameter.coupling);
-      if (*parameter.coupling >= 0 && scene_.couplings[coupling].soft_limits) continue;
+      if (*parameter.coupling >= 0 && scene.couplings[coupling].soft_limits) continue;
       if (parameter.key == "rate") add_rate(parameter, *parameter.coupling);
       for (const GainKey& gain : kGains)
         if (parameter.key == gain.key) add_gain(parameter, *parameter.coupling, gain);
     }
-    if (!stable_now_) keep_stabilising();
+    if (!stable_now) keep_stabilising();
   }
 
- private:
   // Unstable step: only parameters that stabilise it alone show a limit; if none does, the
   // parameter `step` says so.
   void keep_stabilising() {
     const bool has_any = std::ranges::any_of(
-        parameters_, [](const LabParameter& p) { return p.limit && p.limit->value; });
-    for (LabParameter& parameter : parameters_) {
+        parameters, [](const LabParameter& p) { return p.limit && p.limit->value; });
+    for (LabParameter& parameter : parameters) {
       if (!parameter.limit || parameter.limit->value) continue;
       if (parameter.path == "step" && !has_any)
         parameter.limit->words = "no single parameter stabilises this";
@@ -137,9 +128,9 @@ class Limits {
   }
 
   void add_step(LabParameter& parameter) {
-    const double now = step_.step();
-    const Limit limit = find_limit(now, 1e-7, 0.1, true, stable_now_,
-                                   [&](double h) { return step_.is_stable_at_step(h); });
+    const double now = step.step();
+    const Limit limit = find_limit(now, 1e-7, 0.1, true, stable_now,
+                                   [&](double h) { return step.is_stable_at_step(h); });
     parameter.limit = described(limit, now, "s", " with these gains");
   }
 
@@ -148,21 +139,21 @@ class Limits {
     const bool is_positive = value > 0;
     const double now = is_positive ? value : parameter.low;
     const IsStable is_stable = [&](double x) {
-      return step_.is_stable_with_gain(coupling, key.gain, x);
+      return step.is_stable_with_gain(coupling, key.gain, x);
     };
     const Limit limit =
         find_limit(now, parameter.low / kBeyond, parameter.high * kBeyond, key.upward,
-                   is_positive ? stable_now_ : is_stable(now), is_stable);
+                   is_positive ? stable_now : is_stable(now), is_stable);
     parameter.limit = described(limit, is_positive ? value : 0, parameter.unit, " at this step");
-    if (!stable_now_) parameter.limit->state = "beyond";
+    if (!stable_now) parameter.limit->state = "beyond";
   }
 
   // A held force is unstable at low rates: limit of the number of steps between two evaluations.
   void add_rate(LabParameter& parameter, int coupling) {
     constexpr int kMaxSteps = 1000;
-    const double rate = parse_number(parameter.text).value_or(1 / step_.step());
-    const int now = std::max(1, static_cast<int>(std::lround(1 / (rate * step_.step()))));
-    const auto is_stable = [&](int steps) { return step_.is_stable_with_hold(coupling, steps); };
+    const double rate = parse_number(parameter.text).value_or(1 / step.step());
+    const int now = std::max(1, static_cast<int>(std::lround(1 / (rate * step.step()))));
+    const auto is_stable = [&](int steps) { return step.is_stable_with_hold(coupling, steps); };
     int good = is_stable(now) ? now : 0, bad = good ? 0 : now;
     for (int n = now; good && !bad && n < kMaxSteps;) {
       n *= 2;
@@ -176,15 +167,10 @@ class Limits {
       const int middle = (good + bad) / 2;
       (is_stable(middle) ? good : bad) = middle;
     }
-    Limit limit{std::nullopt, stable_now_, true};
-    if (good && bad) limit.value = 1 / (good * step_.step());
+    Limit limit{std::nullopt, stable_now, true};
+    if (good && bad) limit.value = 1 / (good * step.step());
     parameter.limit = described(limit, rate, "Hz", " with these gains");
   }
-
-  const SceneDescription& scene_;
-  CoupledStep step_;
-  std::vector<LabParameter>& parameters_;
-  bool stable_now_;
 };
 
 // Tracking error of each coupling's link, all target joints at 1 rad/s or 0.1 m/s.
@@ -237,7 +223,7 @@ void predict_limits(SimulatePlan& plan, const State<double>& now,
                     std::vector<LabParameter>& parameters, const char* pose) {
   if (!plan.input.scene || !plan.input.couplings || plan.input.couplings->size() == 0) return;
   plan.input.robot.state.x = now;
-  Limits(plan, parameters).add();
+  Limits{plan, parameters}.add();
   const TrackingErrors errors(plan);
   for (LabParameter& parameter : parameters) {
     if (parameter.limit && !parameter.limit->words.empty()) parameter.limit->words += pose;

@@ -1,10 +1,6 @@
 // Makers of parameters, by group. Internal to app/lab/parameters.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "app/lab/parameters/parameters.h"
 #include "app/scene/read/scene_keys.h"
 

@@ -1,11 +1,7 @@
-#include "app/lab/parameters/parameters.h"
 
-#include <algorithm>
-#include <string_view>
 #include <unordered_map>
 
 #include "app/lab/parameters/parameter_makers.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace parameter_makers {

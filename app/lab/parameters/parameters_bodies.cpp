@@ -1,10 +1,7 @@
 // Parameters of surfaces and masses. Many bodies with the same value share one parameter.
-#include <algorithm>
 
 #include "app/lab/parameters/parameter_makers.h"
-#include "solver/dynamics/model_builder.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::parameter_makers {
 namespace {

@@ -1,11 +1,7 @@
 // Parameters of couplings: type, discretization, gains, rate, and those of the target.
-#include <algorithm>
-#include <cmath>
 
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/read/read_scene.h"
-#include "coupling/laws/coupling_spec.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm::parameter_makers {
 namespace {
@@ -43,67 +39,62 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
   return names;
 }
 
-class CouplingParameters {
- public:
-  CouplingParameters(const SceneDescription& scene, const RunPlan& run, std::size_t index,
-                     std::vector<LabParameter>& parameters)
-      : scene_(scene),
-        run_(run),
-        c_(scene.couplings[index]),
-        facts_(facts_of(c_.law, c_.printed)),
-        index_(index),
-        parameters_(parameters),
-        implicit_fits_(twinarm::facts_of(run.integrator).implicit_force &&
-                       scene.contact != ContactMode::event) {}
+struct CouplingParameters {
+  const SceneDescription& scene;
+  const RunPlan& run;
+  std::size_t index;
+  std::vector<LabParameter>& parameters;
+  const CouplingDescription& c = scene.couplings[index];
+  const CouplingFacts& facts = facts_of(c.law, c.printed);
+  bool implicit_fits =
+      facts_of(run.integrator).implicit_force && scene.contact != ContactMode::event;
 
   void add() {
-    if (!c_.soft_limits && facts_.gains != CouplingFacts::Gains::none) add_type();
+    if (!c.soft_limits && facts.gains != CouplingFacts::Gains::none) add_type();
     add_discretization();
     for (const CouplingKey& row : coupling_keys())
       if (!row.of_target) add_slider(row);
     add_time();
     for (const CouplingKey& row : coupling_keys())
-      if (row.of_target && row.of_target(c_.target.kind)) add_slider(row);
+      if (row.of_target && row.of_target(c.target.kind)) add_slider(row);
   }
 
- private:
   LabParameter& put(const char* key, LabParameter parameter) {
-    parameter.path = item("coupling", index_, key);
-    parameter.group = c_.name;
-    parameter.coupling = static_cast<int>(index_);
+    parameter.path = item("coupling", index, key);
+    parameter.group = c.name;
+    parameter.coupling = static_cast<int>(index);
     parameter.key = key;
-    parameters_.push_back(std::move(parameter));
-    return parameters_.back();
+    parameters.push_back(std::move(parameter));
+    return parameters.back();
   }
   void add_slider(const CouplingKey& row) {
-    if (!row.slider.label || !row.has(facts_)) return;
-    const bool turns = c_.type == CouplingDescription::Type::torsional && !is_slide(scene_, c_);
+    if (!row.slider.label || !row.has(facts)) return;
+    const bool turns = c.type == CouplingDescription::Type::torsional && !is_slide(scene, c);
     LabParameter& parameter =
-        put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
+        put(row.key, slider("", row.slider, row.value(c), row.unit_of(turns)));
     if (!turns || row.turning_low == 0) return;
     parameter.low = row.turning_low;
     parameter.high = row.turning_high;
   }
 
   void add_type() {
-    const auto types = types_for(scene_, c_, implicit_fits_);
+    const auto types = types_for(scene, c, implicit_fits);
     if (types.size() > 1)
-      put("type", choice("", "type", facts_.name, types, "Coupled quantity and coupling law."))
+      put("type", choice("", "type", facts.name, types, "Coupled quantity and coupling law."))
           .resets_state = true;
-    if (c_.law == CouplingKind::torsional && !c_.printed && own_joint(scene_, c_))
-      put("measure", choice("", "measure", c_.measure == SpringSpace::world ? "world" : "joint",
+    if (c.law == CouplingKind::torsional && !c.printed && own_joint(scene, c))
+      put("measure", choice("", "measure", c.measure == SpringSpace::world ? "world" : "joint",
                             {"world", "joint"},
                             "The link's orientation in the world, or the angle of its own joint."))
           .resets_state = true;
   }
 
   void add_discretization() {
-    if (c_.soft_limits || c_.rate > 0 ||
-        facts_.discretizations != CouplingFacts::Discretizations::all)
+    if (c.soft_limits || c.rate > 0 || facts.discretizations != CouplingFacts::Discretizations::all)
       return;
-    if (!implicit_fits_) return;
+    if (!implicit_fits) return;
     put("discretization",
-        choice("", "discretization", name_of(c_.discretization),
+        choice("", "discretization", name_of(c.discretization),
                {"explicit", "semi-implicit", "implicit"},
                "Evaluation of the spring-damper. explicit: at the start of the step; "
                "semi-implicit: damper at its end; implicit: spring too, stable for any stiffness."))
@@ -112,31 +103,23 @@ class CouplingParameters {
 
   void add_time() {
     // A held force is evaluated at the start of a step, as explicit ones are.
-    const bool is_explicit = c_.discretization == Discretization::explicit_ || c_.printed;
-    if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
+    const bool is_explicit = c.discretization == Discretization::explicit_ || c.printed;
+    if (facts.can_hold && is_explicit && !run.is_adaptive()) {
       LabParameter parameter =
-          choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
-                 rates_for_step(c_.rate, run_.step),
+          choice("", "update rate", c.rate > 0 ? number_text(c.rate) : "",
+                 rates_for_step(c.rate, run.step),
                  "Rate of force evaluations; the force is held in between. Empty: every step.");
       parameter.unit = "Hz";
       parameter.resets_state = true;
       put("rate", std::move(parameter));
     }
-    if (coupling_key("damper").has(facts_) &&
-        facts_.discretizations != CouplingFacts::Discretizations::own && !c_.soft_limits)
-      put("damper", choice("", "damper", c_.absolute_damper ? "absolute" : "relative",
+    if (coupling_key("damper").has(facts) &&
+        facts.discretizations != CouplingFacts::Discretizations::own && !c.soft_limits)
+      put("damper", choice("", "damper", c.absolute_damper ? "absolute" : "relative",
                            {"relative", "absolute"},
                            "Damping of the velocity relative to the target, or of the link's "
                            "absolute velocity, which increases the tracking error."));
   }
-
-  const SceneDescription& scene_;
-  const RunPlan& run_;
-  const CouplingDescription& c_;
-  const CouplingFacts& facts_;
-  std::size_t index_;
-  std::vector<LabParameter>& parameters_;
-  bool implicit_fits_;
 };
 
 // One slider for all couplings with the same value.
@@ -202,7 +185,7 @@ void add_couplings(const SceneDescription& scene, const RunPlan& run,
                    std::vector<LabParameter>& parameters) {
   std::vector<LabParameter> own;
   for (std::size_t i = 0; i < scene.couplings.size(); ++i)
-    CouplingParameters(scene, run, i, own).add();
+    CouplingParameters{scene, run, i, own}.add();
   std::vector<LabParameter> common = own;
   add_common(scene, common);
   parameters.insert(parameters.end(), common.begin() + static_cast<std::ptrdiff_t>(own.size()),

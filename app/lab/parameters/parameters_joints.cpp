@@ -1,7 +1,4 @@
 // Parameters of joints of one degree of freedom: position at the start, damping, constant torque.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/read/read_scene.h"

@@ -1,12 +1,5 @@
 #include "app/lab/run/history.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <utility>
-
-#include "solver/support/diagnostics.h"
-
 namespace twinarm {
 namespace {
 

@@ -3,19 +3,10 @@
 // holds it; the history itself is not thread-safe.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <deque>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "app/lab/run/lab_scene.h"
-#include "app/record/recording.h"
 #include "coupling/device/device_motion.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

@@ -1,8 +1,5 @@
 #include "app/lab/run/input_override.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace twinarm {
 namespace {
 

@@ -7,16 +7,8 @@
 // repeat the step.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include "app/lab/run/history.h"
 #include "app/lab/run/lab_inputs.h"
 #include "app/servo/haptic_loop.h"
-#include "coupling/device/device_motion.h"
-#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 

@@ -1,9 +1,5 @@
 #include "app/lab/run/lab_inputs.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "app/device/devices.h"
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/forces/spring.h"

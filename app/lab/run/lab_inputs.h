@@ -9,20 +9,9 @@
 // Switching the source never makes the target robot jump.
 #pragma once
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/lab/run/history.h"
-#include "app/run/simulate_input.h"
-#include "app/scene/forces/reported_forces.h"
 #include "coupling/device/desktop_input.h"
-#include "coupling/device/device_mapping.h"
 #include "coupling/device/force_feedback.h"
-#include "coupling/device/input_device.h"
-#include "solver/model/model.h"
 
 namespace twinarm {
 

@@ -1,12 +1,7 @@
 #include "app/lab/run/lab_run.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "app/diagnose/post_mortem.h"
 #include "app/record/record_run.h"
-#include "app/run/run.h"
-#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {

@@ -2,13 +2,7 @@
 // run by a new LabRun, made from the last frame of the old one. Not thread-safe.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/lab/run/input_override.h"
-#include "app/lab/run/lab_scene.h"
 #include "app/run/stepped_run.h"
 
 namespace twinarm {

@@ -1,11 +1,7 @@
 #include "app/lab/run/lab_scene.h"
 
-#include <cmath>
-#include <utility>
-
 #include "app/record/record_run.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -1,13 +1,8 @@
 #include "app/lab/run/remedy_trial.h"
 
-#include <algorithm>
-#include <deque>
 #include <exception>
-#include <utility>
 
-#include "app/lab/run/lab_run.h"
 #include "app/lab/run/variants.h"
-#include "app/servo/haptic_loop.h"
 
 namespace twinarm {
 namespace {
@@ -47,46 +42,46 @@ class RepeatedInputs {
   LabInput none_, rest_;
 };
 
-class Trials {
- public:
-  Trials(const RemedyTrial& trial, const std::function<bool()>& is_cancelled)
-      : trial_(trial), is_cancelled_(is_cancelled) {}
+struct Trials {
+  const RemedyTrial& trial;
+  const std::function<bool()>& is_cancelled;
+  const double begun = thread_cpu_time();
+  std::deque<Candidate> waiting{};
 
   std::vector<SuggestedFix> run(const std::vector<SuggestedFix>& suggested) {
-    for (const SuggestedFix& fix : suggested) waiting_.push_back({fix, true});
+    for (const SuggestedFix& fix : suggested) waiting.push_back({fix, true});
     std::vector<SuggestedFix> found;
-    for (std::size_t n = 0; n < RemedyTrial::kMaxTried && !waiting_.empty(); ++n) {
-      const Candidate candidate = std::move(waiting_.front());
-      waiting_.pop_front();
+    for (std::size_t n = 0; n < RemedyTrial::kMaxTried && !waiting.empty(); ++n) {
+      const Candidate candidate = std::move(waiting.front());
+      waiting.pop_front();
       try {
         if (holds(candidate)) found.push_back(candidate.fix);
       } catch (const std::exception&) {  // this change is not possible in this scene
       }
-      if (is_cancelled_() || found.size() == kMaxFixes ||
-          thread_cpu_time() - start_ > trial_.max_cpu_of_all)
+      if (is_cancelled() || found.size() == kMaxFixes ||
+          thread_cpu_time() - begun > trial.max_cpu_of_all)
         break;
     }
     return found;
   }
 
- private:
   bool holds(const Candidate& candidate) {
-    std::vector<Change> changes = trial_.changes;
+    std::vector<Change> changes = trial.changes;
     for (const std::string& text : candidate.fix.changes) put(changes, parse_change(text));
     OperatorInput hand;
-    if (trial_.source != OperatorInput::Source::device) hand.choose(trial_.source);
-    LabRun run(trial_.scene->plan(changes), hand, trial_.from.get());
-    run.carry_over_energy(*trial_.from, trial_.names);
-    RepeatedInputs inputs(trial_);
-    const double end = trial_.stopped_at + RemedyTrial::kHold;
+    if (trial.source != OperatorInput::Source::device) hand.choose(trial.source);
+    LabRun run(trial.scene->plan(changes), hand, trial.from.get());
+    run.carry_over_energy(*trial.from, trial.names);
+    RepeatedInputs inputs(trial);
+    const double end = trial.stopped_at + RemedyTrial::kHold;
     const double start = thread_cpu_time();
     while (run.view().time() < end) {
-      if (is_cancelled_() || thread_cpu_time() - start > trial_.max_cpu) return false;
+      if (is_cancelled() || thread_cpu_time() - start > trial.max_cpu) return false;
       if (run.step(inputs.at(run.view().time()))) continue;
       const PostMortem* found = run.post_mortem();
       if (found && candidate.is_suggested)
         for (const SuggestedFix& next : fixes_of(run.prepared(), *found))
-          waiting_.push_back({combined(candidate.fix, next), false});
+          waiting.push_back({combined(candidate.fix, next), false});
       return false;
     }
     return true;
@@ -102,11 +97,6 @@ class Trials {
     for (const Change& change : changes) both.changes.push_back(change.path + "=" + change.value);
     return both;
   }
-
-  const RemedyTrial& trial_;
-  const std::function<bool()>& is_cancelled_;
-  const double start_ = thread_cpu_time();
-  std::deque<Candidate> waiting_;
 };
 
 }  // namespace
@@ -114,7 +104,7 @@ class Trials {
 std::vector<SuggestedFix> fixes_that_hold(const RemedyTrial& trial,
                                           const std::vector<SuggestedFix>& suggested,
                                           const std::function<bool()>& is_cancelled) {
-  return Trials(trial, is_cancelled).run(suggested);
+  return Trials{trial, is_cancelled}.run(suggested);
 }
 
 }  // namespace twinarm

@@ -1,12 +1,7 @@
 // Tries suggested fixes on copies of a run that has stopped, before a user is offered them.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <vector>
-
 #include "app/diagnose/post_mortem.h"
-#include "app/lab/run/history.h"
 #include "app/lab/run/lab_inputs.h"
 
 namespace twinarm {

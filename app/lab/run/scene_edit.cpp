@@ -1,18 +1,8 @@
 #include "app/lab/run/lab_scene.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-#include <utility>
-
 #include "app/scene/read/read_scene.h"
 #include "app/support/text.h"
-#include "collision/import/robot/robot_model.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/kinematics.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

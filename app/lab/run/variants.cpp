@@ -1,12 +1,5 @@
 #include "app/lab/run/variants.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
-#include "solver/support/diagnostics.h"
-
 namespace twinarm {
 namespace {
 

@@ -4,14 +4,7 @@
 // are stored in LabFrame::variants. A stopped variant keeps its last frame. Not thread-safe.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/lab/run/lab_run.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

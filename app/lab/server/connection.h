@@ -16,13 +16,9 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <boost/beast/websocket/stream.hpp>
-#include <chrono>
 #include <cstdio>
 #include <exception>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
 
 #include "app/lab/server/http_text.h"
 #include "app/lab/server/outgoing_queue.h"

@@ -1,10 +1,6 @@
 // Parsing and checking of untrusted HTTP text. No sockets.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/lab/server/lab_server.h"

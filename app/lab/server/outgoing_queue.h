@@ -5,8 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "app/lab/server/lab_server.h"

@@ -1,12 +1,6 @@
 #include "app/lab/session/lab_command.h"
 
-#include <algorithm>
-#include <functional>
-#include <utility>
-
-#include "app/data/value.h"
 #include "app/support/text.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

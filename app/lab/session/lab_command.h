@@ -1,19 +1,8 @@
 // Commands of clients: one JSON object each (docs/reference/lab_protocol.md).
 #pragma once
 
-#include <array>
-#include <chrono>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/lab/session/lab_status.h"
 #include "app/lab/session/scene_builder_thread.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

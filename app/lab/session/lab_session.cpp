@@ -2,15 +2,10 @@
 
 #include <pthread.h>
 
-#include <algorithm>
 #include <stop_token>
-#include <tuple>
-#include <utility>
 
-#include "app/diagnose/post_mortem.h"
 #include "app/lab/parameters/parameters.h"
 #include "app/lab/run/remedy_trial.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -4,17 +4,6 @@
 // wall time; the delay is not made up for. `pace` is the achieved share of the requested speed.
 #pragma once
 
-#include <chrono>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include "app/lab/parameters/gallery.h"
-#include "app/lab/session/scene_builder_thread.h"
 #include "app/lab/session/session_status.h"
 
 namespace twinarm {

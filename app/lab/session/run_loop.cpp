@@ -1,18 +1,9 @@
 #include "app/lab/session/run_loop.h"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
-#include "app/servo/haptic_loop.h"
-
 namespace twinarm {
-namespace {
 
 constexpr auto kMaxBurst = std::chrono::microseconds(4000);  // before commands are read again
 constexpr double kMaxCatchUp = 0.05;                         // delay that is made up for [s]
-
-}  // namespace
 
 void RunLoop::begin(std::unique_ptr<LabRun> run, LabVariants variants) {
   run_ = std::move(run);

@@ -2,18 +2,6 @@
 // are known. Used by the run's thread.
 #pragma once
 
-#include <chrono>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include "app/lab/run/history.h"
-#include "app/lab/run/lab_run.h"
-#include "app/lab/run/variants.h"
 #include "app/lab/session/scene_builder_thread.h"
 #include "app/support/progress.h"
 

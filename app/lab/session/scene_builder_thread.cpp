@@ -1,16 +1,8 @@
-#include "app/lab/session/scene_builder_thread.h"
 
 #include <pthread.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "app/lab/session/lab_command.h"
-#include "app/record/recording_reader.h"
-#include "app/support/files.h"
 #include "collision/sandbox/sandboxed_process.h"
-#include "solver/support/diagnostics.h"
-#include "solver/support/state_archive.h"
 
 namespace twinarm {
 namespace {

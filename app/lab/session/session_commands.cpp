@@ -1,10 +1,6 @@
 #include "app/lab/session/lab_session.h"
 
-#include <algorithm>
-
-#include "app/support/files.h"
 #include "app/support/text.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -1,16 +1,8 @@
 #include "app/lab/session/session_status.h"
 
-#include <algorithm>
-#include <deque>
-#include <tuple>
-#include <utility>
-
 namespace twinarm {
-namespace {
 
 constexpr auto kStatusEvery = std::chrono::milliseconds(250);
-
-}  // namespace
 
 // A frame each n steps, at multiples of n: evenly spaced, and in a branch at the same steps as
 // before. n is smaller where the run does not keep up.

@@ -1,20 +1,8 @@
 // Publishes the newest frame, the status and notes of the session to other threads.
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <cstdint>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
-#include "app/lab/run/history.h"
 #include "app/lab/session/lab_command.h"
-#include "app/lab/session/lab_status.h"
 #include "app/lab/session/run_loop.h"
-#include "app/lab/session/scene_builder_thread.h"
 
 namespace twinarm {
 

@@ -1,12 +1,5 @@
 #include "app/lab/stream/frame_bytes.h"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
-#include <limits>
-#include <utility>
-
-#include "app/accounting/energy_balance.h"
 #include "app/robot/robot_output.h"
 
 namespace twinarm {

@@ -1,9 +1,5 @@
 #include "app/lab/stream/frame_bytes.h"
 
-#include <algorithm>
-
-#include "app/film/filmed_run.h"
-
 namespace twinarm {
 namespace {
 

@@ -1,11 +1,5 @@
 #include "app/lab/stream/lab_view.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "app/draw/overlays/overlays.h"
-
 namespace twinarm {
 namespace {
 

@@ -14,19 +14,8 @@
 // States that are not finite give no instances and no labels, and no exception.
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "app/draw/scene_view.h"
-#include "app/lab/run/history.h"
 #include "app/lab/session/scene_builder_thread.h"
 #include "app/lab/stream/frame_bytes.h"
-#include "app/render/list/draw_list.h"
-#include "app/robot/robot_input.h"
-#include "app/run/simulate_input.h"
 
 namespace twinarm {
 

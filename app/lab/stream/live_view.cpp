@@ -1,13 +1,5 @@
 #include "app/lab/stream/lab_view.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
-#include "app/draw/scene_view.h"
-#include "app/robot/coordinates.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {

@@ -1,16 +1,7 @@
 
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "app/draw/overlays/overlays.h"
 #include "app/lab/stream/lab_view.h"
-#include "app/page/page_layers.h"
-#include "app/record/recording.h"
 #include "app/support/text.h"
-#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {

@@ -7,9 +7,7 @@
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 
-#include <array>
 #include <stdexcept>
-#include <string>
 
 #include "solver/support/diagnostics.h"
 

@@ -1,7 +1,6 @@
 #include "app/render/gl/gl_objects.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "solver/support/diagnostics.h"
 

@@ -2,14 +2,8 @@
 #include "app/render/gl/painter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "app/render/gl/scene_pass.h"
 #include "app/render/text/lettering.h"

@@ -2,11 +2,8 @@
 // (scene_pass.h); tiles are cut by the scissor, which leaves pixel values unchanged.
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <optional>
 
 #include "app/render/gl/scene_pass.h"
 

@@ -5,18 +5,14 @@
 // linear light and encoded by the canvas. Requires a current context.
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <optional>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "app/render/gl/gl_objects.h"
 #include "app/render/list/draw_list.h"
 #include "app/render/list/view.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

@@ -7,18 +7,12 @@
 // copies of a list are cheap, and a painter may identify a mesh by its address.
 #pragma once
 
-#include <Eigen/Core>
-#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "app/render/list/draw_mesh.h"
 #include "app/render/list/image.h"
-#include "collision/geometry/mesh.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

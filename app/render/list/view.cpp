@@ -1,6 +1,5 @@
 #include "app/render/list/view.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,6 @@
 // -w <= x, y, z <= w).
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-
 #include "app/render/list/draw_list.h"
 
 namespace twinarm {

@@ -2,7 +2,6 @@
 #include "app/render/list/visual_model.h"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 #include <utility>
 

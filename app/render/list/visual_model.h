@@ -1,12 +1,6 @@
 // A mesh file prepared for drawing: parts with colours and textures, consistent winding.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/render/list/draw_list.h"
 
 namespace twinarm {

@@ -6,10 +6,7 @@
 #include FT_STROKER_H
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "solver/support/diagnostics.h"
 

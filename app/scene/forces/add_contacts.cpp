@@ -1,14 +1,10 @@
 #include "app/scene/forces/add_contacts.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <map>
-#include <string_view>
 
 #include "app/scene/read/read_scene.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 

@@ -1,10 +1,6 @@
 // Adds contacts, loop closures and joint limits of a scene to a simulation; their work.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/robot/robot_input.h"
 #include "app/scene/forces/reported_forces.h"
 #include "app/scene/model/scene_model.h"

@@ -1,11 +1,7 @@
 #include "app/scene/forces/scene_couplings.h"
 
-#include <cmath>
-#include <utility>
-
 #include "solver/forces/joint_stops.h"
 #include "solver/forces/spring.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -1,11 +1,7 @@
 #include "app/scene/forces/scene_couplings.h"
 
-#include <utility>
-
 #include "app/support/text.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/operator_motion.h"
-#include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {
 namespace {

@@ -1,23 +1,18 @@
 // Constraints and couplings: from names to bodies of the model.
 
 #include "app/scene/model/scene_builder.h"
-#include "coupling/laws/coupling_spec.h"
-#include "coupling/laws/mujoco_weld.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/spatial/rotation_to_axis.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-class ConstraintBuilder {
- public:
-  explicit ConstraintBuilder(SceneModel& scene) : scene_(scene), k_(scene.model) {
-    forward_kinematics(scene.model, scene.start, k_);
-  }
+struct ConstraintBuilder {
+  SceneModel& scene;
+  Kinematics k = kinematics_at(scene.model, scene.start);
+  DiagnosticList faults{};
 
   void build() {
-    for (const ConstraintDescription& given : scene_.description.constraints) {
+    for (const ConstraintDescription& given : scene.description.constraints) {
       SceneConstraint made;
       made.name = given.name;
       made.line = given.line;
@@ -26,20 +21,19 @@ class ConstraintBuilder {
         build_gear(given, made);
       else
         build_joint(given, made);
-      scene_.constraints.push_back(std::move(made));
+      scene.constraints.push_back(std::move(made));
     }
-    faults_.check();
+    faults.check();
   }
 
- private:
   // Origin of the body in the world; a fixed one has no body in the model.
   Vector3 origin_of(const std::string& name) const {
-    const SceneReference found = *find_reference(scene_.description, name);
+    const SceneReference found = *find_reference(scene.description, name);
     if (found.body >= 0) {
-      const BodyDescription& body = scene_.description.bodies[static_cast<std::size_t>(found.body)];
+      const BodyDescription& body = scene.description.bodies[static_cast<std::size_t>(found.body)];
       if (body.fixed) return body.X_WB.p;
     }
-    return k_.X_WL[static_cast<std::size_t>(body_of(scene_, found))].p;
+    return k.X_WL[static_cast<std::size_t>(body_of(scene, found))].p;
   }
 
   // The ends of a distance in the world. A single point belongs to the fixed body, else to a; the
@@ -53,30 +47,30 @@ class ConstraintBuilder {
 
   void fault(const SceneConstraint& made, std::string problem, std::string fix,
              std::string_view code) {
-    faults_.add({scene_.description.file.string(), made.line, "constraint '" + made.name + "'",
-                 std::move(problem), std::move(fix), code});
+    faults.add({scene.description.file.string(), made.line, "constraint '" + made.name + "'",
+                std::move(problem), std::move(fix), code});
   }
 
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
     const auto child_of = [&](const std::string& name) {
-      const JointReference joint = *find_joint(scene_.description, name);
-      return scene_.model.find_joint(
-          name_in_scene(scene_.description, joint.robot, joint.joint->name));
+      const JointReference joint = *find_joint(scene.description, name);
+      return scene.model.find_joint(
+          name_in_scene(scene.description, joint.robot, joint.joint->name));
     };
     made.a = child_of(given.a);
     made.b = child_of(given.b);
     made.ratio = given.ratio;
     const auto q = [&](int body) {
-      return scene_.start.q[scene_.model.iq[static_cast<std::size_t>(body)]];
+      return scene.start.q[scene.model.iq[static_cast<std::size_t>(body)]];
     };
     made.offset = q(made.a) - made.ratio * q(made.b);
   }
 
   void build_joint(const ConstraintDescription& given, SceneConstraint& made) {
-    made.a = body_of(scene_, *find_reference(scene_.description, given.a));
-    made.b = body_of(scene_, *find_reference(scene_.description, given.b));
-    const Pose& X_WA = k_.X_WL[static_cast<std::size_t>(made.a)];
-    const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
+    made.a = body_of(scene, *find_reference(scene.description, given.a));
+    made.b = body_of(scene, *find_reference(scene.description, given.b));
+    const Pose& X_WA = k.X_WL[static_cast<std::size_t>(made.a)];
+    const Pose& X_WB = k.X_WL[static_cast<std::size_t>(made.b)];
     if (made.a == made.b)
       fault(made, "both are the same body", "name two bodies, at most one of them fixed",
             "scene.same-ends");
@@ -95,19 +89,7 @@ class ConstraintBuilder {
     made.X_AC = X_WA.inverse() * X_WC;
     made.X_BC = X_WB.inverse() * X_WC;
   }
-
-  SceneModel& scene_;
-  Kinematics k_;
-  DiagnosticList faults_;
 };
-
-}  // namespace
-
-void build_constraints(SceneModel& scene) {
-  ConstraintBuilder(scene).build();
-}
-
-namespace {
 
 using Law = CouplingSpec::Type;
 using Component = CouplingDescription::Type;
@@ -171,6 +153,10 @@ void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& fault
 }
 
 }  // namespace
+
+void build_constraints(SceneModel& scene) {
+  ConstraintBuilder{scene}.build();
+}
 
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
   std::vector<std::string> names;

@@ -1,11 +1,7 @@
 // Geometries, their surfaces, and the pairs without contacts.
-#include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"
-#include "collision/import/robot/robot_model.h"
 
 namespace twinarm {
 namespace {
@@ -19,21 +15,21 @@ void replace_by(std::optional<T>& value, const std::optional<T>& given) {
   if (given) value = given;
 }
 
-class GeometryBuilder {
- public:
-  explicit GeometryBuilder(SceneModel& scene) : scene_(scene) {}
+struct GeometryBuilder {
+  SceneModel& scene;
+  std::vector<SceneReference> owners{};  // by geometry
 
   void build() {
     for (std::size_t r = 0; r < description().robots.size(); ++r) add_robot(r);
     for (std::size_t b = 0; b < description().bodies.size(); ++b) {
       const BodyDescription& body = description().bodies[b];
-      const int index = body_of(scene_, {static_cast<int>(b), -1, ""});
+      const int index = body_of(scene, {static_cast<int>(b), -1, ""});
       add({body.surface, body.name, index, index == 0 ? body.X_WB : Pose{}, body.shape, body.group,
            -1},
           {static_cast<int>(b), -1, ""});
     }
     constexpr std::size_t kMaxGeometries = 10000;
-    if (scene_.geometries.size() > kMaxGeometries)
+    if (scene.geometries.size() > kMaxGeometries)
       throw InputError(
           {{description().file.string(), 0, "", "there are more than 10,000 shapes that may touch",
             "give fewer bodies, or robots with collide = false", "scene.too-many"}});
@@ -41,8 +37,7 @@ class GeometryBuilder {
     for (const PairDescription& pair : description().pairs) add_pair(pair);
   }
 
- private:
-  const SceneDescription& description() const { return scene_.description; }
+  const SceneDescription& description() const { return scene.description; }
 
   void add_robot(std::size_t r) {
     const RobotInScene& robot = description().robots[r];
@@ -50,42 +45,42 @@ class GeometryBuilder {
     for (const LinkDescription& link : robot.description.links)
       for (const CollisionPart& part : link.collisions) {
         const SceneReference owner{-1, static_cast<int>(r), link.name};
-        SceneGeometry geometry{robot.surface,          name_in_scene(description(), r, link.name),
-                               body_of(scene_, owner), part.X_LG(),
-                               part.geometry,          0,
+        SceneGeometry geometry{robot.surface,         name_in_scene(description(), r, link.name),
+                               body_of(scene, owner), part.X_LG(),
+                               part.geometry,         0,
                                static_cast<int>(r)};
         add(std::move(geometry), owner);
       }
   }
 
   void add(SceneGeometry geometry, SceneReference owner) {
-    scene_.geometries.push_back(std::move(geometry));
-    owners_.push_back(std::move(owner));
+    scene.geometries.push_back(std::move(geometry));
+    owners.push_back(std::move(owner));
   }
 
   std::vector<int> named(const std::string& name) const {
     const SceneReference wanted = *find_reference(description(), name);
     std::vector<int> found;
-    for (std::size_t g = 0; g < owners_.size(); ++g)
-      if (owners_[g].body == wanted.body && owners_[g].robot == wanted.robot &&
-          (wanted.link.empty() || owners_[g].link == wanted.link))
+    for (std::size_t g = 0; g < owners.size(); ++g)
+      if (owners[g].body == wanted.body && owners[g].robot == wanted.robot &&
+          (wanted.link.empty() || owners[g].link == wanted.link))
         found.push_back(static_cast<int>(g));
     return found;
   }
 
   void find_roots() {
-    const Model<double>& model = scene_.model;
-    std::vector<int>& roots = scene_.roots;
+    const Model<double>& model = scene.model;
+    std::vector<int>& roots = scene.roots;
     for (int i = 0; i < model.body_count(); ++i) {
       const auto body = static_cast<std::size_t>(i);
       const bool is_fixed = i > 0 && model.joint[body] == JointType::fixed;
       roots.push_back(is_fixed ? roots[static_cast<std::size_t>(model.parent[body])] : i);
     }
-    for (const SceneConstraint& c : scene_.constraints) {
+    for (const SceneConstraint& c : scene.constraints) {
       using Type = SceneConstraint::Type;
       if (c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge)
-        scene_.joined.insert(std::minmax(roots[static_cast<std::size_t>(c.a)],
-                                         roots[static_cast<std::size_t>(c.b)]));
+        scene.joined.insert(std::minmax(roots[static_cast<std::size_t>(c.a)],
+                                        roots[static_cast<std::size_t>(c.b)]));
     }
   }
 
@@ -94,7 +89,7 @@ class GeometryBuilder {
     const std::vector<int> all_a = named(given.a), all_b = named(given.b);
     for (const int a : all_a)
       for (const int b : all_b) {
-        PairOverride& pair = scene_.pairs[std::minmax(a, b)];
+        PairOverride& pair = scene.pairs[std::minmax(a, b)];
         replace_by(pair.friction, given.friction);
         replace_by(pair.restitution, given.restitution);
         replace_by(pair.stiffness, given.stiffness);
@@ -102,15 +97,12 @@ class GeometryBuilder {
         replace_by(pair.collide, given.collide);
       }
   }
-
-  SceneModel& scene_;
-  std::vector<SceneReference> owners_;  // by geometry
 };
 
 }  // namespace
 
 void build_geometries(SceneModel& scene) {
-  GeometryBuilder(scene).build();
+  GeometryBuilder{scene}.build();
 }
 
 bool SceneModel::is_apart(int a, int b) const {

@@ -1,16 +1,7 @@
 // Builds one model of all robots and bodies, and the start state.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
-#include "collision/import/robot/robot_model.h"
-#include "collision/shapes/mesh_shape.h"
-#include "solver/dynamics/kinematics.h"
-#include "solver/dynamics/model_builder.h"
 #include "solver/model/mimic.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -1,12 +1,7 @@
 #include "app/scene/read/change_scene.h"
 
-#include <algorithm>
-#include <array>
-
-#include "app/scene/read/scene_description.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -16,27 +11,27 @@ bool is_list_of_tables(const Value& value) {
 }
 
 // Follows a path through the tree.
-class PathWalk {
- public:
-  PathWalk(const ValuePath& path, MadeKeys made, int line, const std::string& where)
-      : path_(path), made_(made), line_(line), where_(where) {}
-
-  std::vector<PathTarget> found;
+struct PathWalk {
+  const ValuePath& path;
+  const MadeKeys made;
+  const int line;
+  const std::string& where;
+  std::vector<PathTarget> found{};
 
   void go(Value& table, std::size_t p = 0) {
-    const ValuePath::Part& part = path_.parts[p];
+    const ValuePath::Part& part = path.parts[p];
     if (part.name.empty() || part.index == -2)
-      fault("'" + path_.text + "' is not a path",
+      fault("'" + path.text + "' is not a path",
             "write it as in coupling[0].stiffness, body.mass or step", "path.form");
     if (!table.is_table())
       fault(up_to(p) + " is " + describe(table) + ": it has no '" + part.name + "'",
             "name a number of the scene file", "path.unknown-key");
     const bool last = is_last(p);
-    const bool may_make = part.index < 0 && (made_ == MadeKeys::last ? last : p > 0);
+    const bool may_make = part.index < 0 && (made == MadeKeys::last ? last : p > 0);
     Value* member = table.find(part.name);
     if (!member && may_make) {
       member = &table.put(part.name, last ? Value::of(0.0) : Value());
-      member->line = line_;
+      member->line = line;
     }
     if (!member) {
       std::vector<std::string> names;
@@ -54,17 +49,16 @@ class PathWalk {
       go(*member, p + 1);
   }
 
- private:
   [[noreturn]] void fault(const std::string& problem, const std::string& fix,
                           std::string_view code) const {
-    throw InputError(where_, problem, fix, code);
+    throw InputError(where, problem, fix, code);
   }
-  bool is_last(std::size_t p) const { return p + 1 == path_.parts.size(); }
+  bool is_last(std::size_t p) const { return p + 1 == path.parts.size(); }
   std::string up_to(std::size_t p) const {  // the path before part p: "the scene", "'body[0]'"
     if (p == 0) return "the scene";
     std::string text;
     for (std::size_t i = 0; i < p; ++i) {
-      const ValuePath::Part& part = path_.parts[i];
+      const ValuePath::Part& part = path.parts[i];
       text += (i ? "." : "") + part.name +
               (part.index >= 0 ? "[" + std::to_string(part.index) + "]" : "");
     }
@@ -72,7 +66,7 @@ class PathWalk {
   }
 
   void go_to_item(Value& list, std::size_t p) {
-    const ValuePath::Part& part = path_.parts[p];
+    const ValuePath::Part& part = path.parts[p];
     const auto i = static_cast<std::size_t>(part.index);
     if (!list.is_list())
       fault("'" + part.name + "' is " + describe(list) + ": it has no items",
@@ -89,7 +83,7 @@ class PathWalk {
 
   // The item whose name is the next part, else all items, if the next part can be a key.
   void go_to_items(Value& list, std::size_t p) {
-    const ValuePath::Part& next = path_.parts[p + 1];
+    const ValuePath::Part& next = path.parts[p + 1];
     static const std::array kTables{"q",     "qd",      "torque", "damping",   "motion",
                                     "shape", "gripper", "target", "mass_scale"};
     bool is_key = is_last(p + 1) || next.index != -1 || next.name.empty() ||
@@ -101,19 +95,14 @@ class PathWalk {
       if (name) names.push_back(name->text);
       if (!name || name->text != next.name || next.index != -1) continue;
       if (!is_last(p + 1)) return go(item, p + 2);
-      if (made_ == MadeKeys::last)
-        fault("'" + path_.text + "' is a table", "name one of its numbers", "path.no-number");
+      if (made == MadeKeys::last)
+        fault("'" + path.text + "' is a table", "name one of its numbers", "path.no-number");
     }
     if (!is_key)
-      fault("there is no " + path_.parts[p].name + " '" + next.name + "'",
+      fault("there is no " + path.parts[p].name + " '" + next.name + "'",
             name_remedy(next.name, names, "names"), "path.unknown-name");
     for (Value& item : list.items) go(item, p + 1);
   }
-
-  const ValuePath& path_;
-  const MadeKeys made_;
-  const int line_;
-  const std::string& where_;
 };
 
 // A number, true or false, numbers separated by commas, or a text.
@@ -160,7 +149,7 @@ ValuePath::ValuePath(const std::string& path) : text(path) {
 
 std::vector<PathTarget> find_targets(Value& scene, const ValuePath& path, MadeKeys made, int line,
                                      const std::string& where) {
-  PathWalk walk(path, made, line, where);
+  PathWalk walk{path, made, line, where};
   walk.go(scene);
   return std::move(walk.found);
 }

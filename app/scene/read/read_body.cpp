@@ -1,10 +1,8 @@
 // Bodies with their shapes: primitives (collision/shapes/shape.h) and meshes.
-#include <cstdint>
 
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -110,63 +108,6 @@ std::vector<Vector3> read_copies(SceneReader& reader, TableReader& table) {
   return places;
 }
 
-}  // namespace
-
-std::optional<BodyMotion> SceneReader::read_motion(TableReader& table) {
-  const Value* given = table.table("motion");
-  if (!given) return std::nullopt;
-  TableReader law = open(*given, table.where() + ", motion");
-  const auto vector = [&](const char* key) { return law.vector(key).value_or(Vector3::Zero()); };
-  BodyMotion motion{vector("linear"), vector("angular"), vector("amplitude"), vector("swing"),
-                    law.positive("frequency").value_or(0)};
-  const bool oscillates = law.has("amplitude") || law.has("swing");
-  if (oscillates != law.has("frequency"))
-    law.fault("frequency", oscillates ? "is missing" : "there is nothing that it applies to",
-              oscillates ? "give it in Hz" : "give amplitude [m] or swing [rad]",
-              "scene.key-alone");
-  if (law.has("angular") && law.has("swing"))
-    law.fault("swing", "conflicts with 'angular'", "leave one of them out", "scene.two-keys");
-  law.done();
-  return motion;
-}
-
-void SceneReader::read_body(const Value& value) {
-  TableReader table = open(value, "body");
-  BodyDescription body;
-  body.line = table.line();
-  body.name = read_name(table, "body");
-  read_how_it_moves(*this, table, body);
-  if (const auto shape = read_shape(table)) {
-    body.shape = *shape;
-    if (const char* why = why_not_free(*shape); why && body.is_free())
-      table.fault("shape", std::string(why) + ": it cannot be a free body",
-                  "give fixed = true or motion = { ... }", "scene.no-inside");
-  }
-  read_mass(table, body, scene);
-  body.X_WB = read_pose(table);
-  body.surface = read_surface(table);
-  read_appearance(*this, table, body);
-  if (const auto group = table.number("group")) {
-    body.group = static_cast<int>(*group);
-    if (!(*group >= 0 && *group <= 31 && *group == body.group))
-      table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "",
-                  "scene.range");
-  }
-  const std::vector<Vector3> places = read_copies(*this, table);
-  table.done();
-  const BodyDescription first = body;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places.size() > 1) body.name = first.name + std::to_string(i + 1);
-    if (places.size() > 1 && !taken_names.emplace("body", body.name).second)
-      table.fault("copies", "the name '" + body.name + "' is already used",
-                  "rename one of the bodies", "scene.name-taken");
-    body.X_WB.p = first.X_WB.p + places[i];
-    scene.bodies.push_back(body);
-  }
-}
-
-namespace {
-
 void read_length(TableReader& table, const char* key, double& length) {
   table.missing(key, std::string("give ") + key + " = ... in metres");
   length = table.positive(key).value_or(1);
@@ -224,6 +165,59 @@ ShapeDescription read_named(const std::string& name, SceneReader& reader, TableR
 }
 
 }  // namespace
+
+std::optional<BodyMotion> SceneReader::read_motion(TableReader& table) {
+  const Value* given = table.table("motion");
+  if (!given) return std::nullopt;
+  TableReader law = open(*given, table.where() + ", motion");
+  const auto vector = [&](const char* key) { return law.vector(key).value_or(Vector3::Zero()); };
+  BodyMotion motion{vector("linear"), vector("angular"), vector("amplitude"), vector("swing"),
+                    law.positive("frequency").value_or(0)};
+  const bool oscillates = law.has("amplitude") || law.has("swing");
+  if (oscillates != law.has("frequency"))
+    law.fault("frequency", oscillates ? "is missing" : "there is nothing that it applies to",
+              oscillates ? "give it in Hz" : "give amplitude [m] or swing [rad]",
+              "scene.key-alone");
+  if (law.has("angular") && law.has("swing"))
+    law.fault("swing", "conflicts with 'angular'", "leave one of them out", "scene.two-keys");
+  law.done();
+  return motion;
+}
+
+void SceneReader::read_body(const Value& value) {
+  TableReader table = open(value, "body");
+  BodyDescription body;
+  body.line = table.line();
+  body.name = read_name(table, "body");
+  read_how_it_moves(*this, table, body);
+  if (const auto shape = read_shape(table)) {
+    body.shape = *shape;
+    if (const char* why = why_not_free(*shape); why && body.is_free())
+      table.fault("shape", std::string(why) + ": it cannot be a free body",
+                  "give fixed = true or motion = { ... }", "scene.no-inside");
+  }
+  read_mass(table, body, scene);
+  body.X_WB = read_pose(table);
+  body.surface = read_surface(table);
+  read_appearance(*this, table, body);
+  if (const auto group = table.number("group")) {
+    body.group = static_cast<int>(*group);
+    if (!(*group >= 0 && *group <= 31 && *group == body.group))
+      table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "",
+                  "scene.range");
+  }
+  const std::vector<Vector3> places = read_copies(*this, table);
+  table.done();
+  const BodyDescription first = body;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places.size() > 1) body.name = first.name + std::to_string(i + 1);
+    if (places.size() > 1 && !taken_names.emplace("body", body.name).second)
+      table.fault("copies", "the name '" + body.name + "' is already used",
+                  "rename one of the bodies", "scene.name-taken");
+    body.X_WB.p = first.X_WB.p + places[i];
+    scene.bodies.push_back(body);
+  }
+}
 
 std::optional<ShapeDescription> SceneReader::read_shape(TableReader& body) {
   body.missing("shape", "give shape = { box = { size = [1, 1, 1] } }, or another");

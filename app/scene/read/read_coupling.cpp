@@ -1,9 +1,6 @@
 // Couplings between a robot and its target robot.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/scene/read/read_scene.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_reader.h"

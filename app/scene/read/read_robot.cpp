@@ -1,10 +1,7 @@
-#include <algorithm>
-#include <cmath>
 
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
 #include "collision/import/formats/robot_formats.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

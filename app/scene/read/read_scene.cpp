@@ -1,7 +1,5 @@
 #include "app/scene/read/read_scene.h"
 
-#include <algorithm>
-
 #include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/files.h"

@@ -1,12 +1,6 @@
 // Reads a scene file (docs/reference/scene_file.md).
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "app/data/value.h"
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/file_search.h"
 

@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "app/scene/read/change_scene.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -100,6 +95,21 @@ constexpr std::array<std::pair<const char*, const char*>, 18> kOtherUnits{
      {"linear", "m/s"},
      {"angular_velocity", "rad/s"},
      {"angular", "rad/s"}}};
+
+struct ReferenceRow {
+  std::string key, of;
+  const char* unit;
+  std::optional<double> by_default;
+  const NumberRange& range;
+  const char* meaning;
+};
+
+std::string to_markdown(const ReferenceRow& row) {
+  std::string range = row.range.sign == Sign::positive ? "> 0" : ">= 0";
+  if (*row.range.problem) range += std::string("; ") + row.range.problem;
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, row.of, row.unit,
+                     row.by_default ? short_number_text(*row.by_default) : "", range, row.meaning);
+}
 
 }  // namespace
 
@@ -232,25 +242,6 @@ std::string unit_of_number(const Value& scene, const std::string& text) {
 }
 
 // ---- tables for the reference ----
-
-namespace {
-
-struct ReferenceRow {
-  std::string key, of;
-  const char* unit;
-  std::optional<double> by_default;
-  const NumberRange& range;
-  const char* meaning;
-};
-
-std::string to_markdown(const ReferenceRow& row) {
-  std::string range = row.range.sign == Sign::positive ? "> 0" : ">= 0";
-  if (*row.range.problem) range += std::string("; ") + row.range.problem;
-  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, row.of, row.unit,
-                     row.by_default ? short_number_text(*row.by_default) : "", range, row.meaning);
-}
-
-}  // namespace
 
 std::string scene_numbers() {
   constexpr const char* kHead =

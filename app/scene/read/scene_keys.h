@@ -3,11 +3,6 @@
 // row and the member that it fills. Keys of other tables (step, mass, ..) are read in read_*.cpp.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
 
 namespace twinarm {

@@ -1,13 +1,8 @@
 // Implementation of read_scene(); only read_*.cpp include it.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
 
-#include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/file_search.h"
 

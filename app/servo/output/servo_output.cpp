@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
-#include "app/data/value.h"
 #include "app/plot/gnuplot.h"
 #include "app/record/record_run.h"
 #include "app/support/progress.h"
@@ -63,6 +60,42 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
                          {"interval", times_of(figures.interval)},
                          {"overruns", figures.overruns},
                          {"slipped", figures.slipped}});
+}
+
+// Duration [us] and share [%] of all ticks, in bins of a quarter octave.
+std::vector<std::vector<double>> columns_of(const TickTimes& times) {
+  constexpr int kTogether = 4;
+  std::vector<std::vector<double>> columns(2);
+  for (int bin = 0; bin + kTogether <= TickTimes::kBins; bin += kTogether) {
+    long count = 0;
+    for (int i = 0; i < kTogether; ++i) count += times.count(bin + i);
+    columns[0].push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
+    columns[1].push_back(100.0 * static_cast<double>(count) /
+                         static_cast<double>(std::max(1L, times.count())));
+  }
+  return columns;
+}
+
+// One panel: bars for the run and for the empty loop.
+std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
+                  const TickTimes& empty, double limit, const std::string& limit_name) {
+  std::string script = fmt::format(
+      "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
+      "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
+      in_quotes(label), 50.0 / static_cast<double>(std::max(1L, run.count())));
+  script += fmt::format(
+      "set arrow 1 from {0},graph 0 to {0},graph 0.9 nohead dashtype 2 lc rgb '{1}'\n"
+      "set label 1 {2} at {0},graph 0.94 center front tc rgb '{1}'\n",
+      limit, palette::faint, in_quotes(limit_name));
+  script += fmt::format(
+      "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'with the robot'",
+      gnuplot.data(columns_of(run)), palette::dvr);
+  if (empty.count() > 0)
+    script += fmt::format(
+        ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'an empty "
+        "loop'",
+        gnuplot.data(columns_of(empty)), palette::kvr);
+  return script + "\nunset arrow 1\nunset label 1\n";
 }
 
 }  // namespace
@@ -154,46 +187,6 @@ State<double> record_again(const std::filesystem::path& scene,
   progress.finish();
   return end;
 }
-
-namespace {
-
-// Duration [us] and share [%] of all ticks, in bins of a quarter octave.
-std::vector<std::vector<double>> columns_of(const TickTimes& times) {
-  constexpr int kTogether = 4;
-  std::vector<std::vector<double>> columns(2);
-  for (int bin = 0; bin + kTogether <= TickTimes::kBins; bin += kTogether) {
-    long count = 0;
-    for (int i = 0; i < kTogether; ++i) count += times.count(bin + i);
-    columns[0].push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
-    columns[1].push_back(100.0 * static_cast<double>(count) /
-                         static_cast<double>(std::max(1L, times.count())));
-  }
-  return columns;
-}
-
-// One panel: bars for the run and for the empty loop.
-std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
-                  const TickTimes& empty, double limit, const std::string& limit_name) {
-  std::string script = fmt::format(
-      "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
-      "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
-      in_quotes(label), 50.0 / static_cast<double>(std::max(1L, run.count())));
-  script += fmt::format(
-      "set arrow 1 from {0},graph 0 to {0},graph 0.9 nohead dashtype 2 lc rgb '{1}'\n"
-      "set label 1 {2} at {0},graph 0.94 center front tc rgb '{1}'\n",
-      limit, palette::faint, in_quotes(limit_name));
-  script += fmt::format(
-      "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'with the robot'",
-      gnuplot.data(columns_of(run)), palette::dvr);
-  if (empty.count() > 0)
-    script += fmt::format(
-        ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'an empty "
-        "loop'",
-        gnuplot.data(columns_of(empty)), palette::kvr);
-  return script + "\nunset arrow 1\nunset label 1\n";
-}
-
-}  // namespace
 
 void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) {
   Gnuplot gnuplot;

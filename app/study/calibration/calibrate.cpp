@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "app/support/parallel_for.h"
 
 namespace twinarm {

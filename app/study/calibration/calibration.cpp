@@ -1,17 +1,12 @@
-#include "app/study/calibration/calibration.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/study/calibration/identify.h"
+#include "app/study/calibration/calibration.h"
 #include "collision/import/urdf/urdf.h"
 #include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

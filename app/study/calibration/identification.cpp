@@ -1,13 +1,9 @@
 // Coupling laws of the identification, intervals of its profiles, and the searches.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlopt.hpp>
 
 #include "app/study/calibration/calibration.h"
-#include "app/study/calibration/identify.h"
-#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {

@@ -1,15 +1,10 @@
-#include "app/study/calibration/identify.h"
+#include "app/study/calibration/calibration.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "app/support/parallel_for.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/diagnostics.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -29,20 +24,20 @@ Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
 }
 
 // Identification of the parameters of one law at one rate from one row.
-class IdentificationProblem {
- public:
-  IdentificationProblem(const StudyInputs& inputs, const FamilyLaw& law, std::string row,
-                        double rate)
-      : inputs_(inputs), law_(law), row_(std::move(row)), rate_(rate) {}
+struct IdentificationProblem {
+  const StudyInputs& inputs;
+  const FamilyLaw& law;
+  std::string row;
+  double rate;
 
   Identification solve() const {
     Identification found;
-    found.row = row_;
-    found.law = law_.name;
-    found.fit.name = fmt::format("{}/{}/{:g}", row_, law_.name, rate_);
-    found.fit.rate = rate_;
+    found.row = row;
+    found.law = law.name;
+    found.fit.name = fmt::format("{}/{}/{:g}", row, law.name, rate);
+    found.fit.rate = rate;
     found.fit.parameters = parameters();
-    const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
+    const bool folds = law.coupling.printed && law.coupling.type == CouplingSpec::Type::torsional;
     minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed,
              kFirstEvaluations, [this](const CalibrationEntry& entry) { return misfit(entry); });
     // If a profile finds a better fit, the search is repeated from there.
@@ -75,13 +70,12 @@ class IdentificationProblem {
     return found;
   }
 
- private:
   std::vector<Parameter> parameters() const {
-    if (law_.coupling.type == CouplingSpec::Type::weld)
+    if (law.coupling.type == CouplingSpec::Type::weld)
       return {{"time_constant", 1e-3, 1, 0},
               {"damping_ratio", 0.01, 10, 0},
               {"arm2_mass_scale", 0.2, 4, 0}};
-    const bool points = facts_of(law_.coupling.type, law_.coupling.printed).at_point;
+    const bool points = facts_of(law.coupling.type, law.coupling.printed).at_point;
     const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
     const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
     return {{"k1", k_low, k_high, 0},
@@ -92,12 +86,12 @@ class IdentificationProblem {
   }
 
   RunResult run_with(const CalibrationEntry& entry, double sweep) const {
-    const FittedRun fitted = fitted_run(inputs_, row_, law_, entry);
+    const FittedRun fitted = fitted_run(inputs, row, law, entry);
     return run(fitted.robot, AutomaticMotion(OperatorMapping{}, sweep), fitted.spec);
   }
 
   double misfit(const CalibrationEntry& entry) const {
-    return std::ranges::max(table_misfits(run_with(entry, 1), row_));
+    return std::ranges::max(table_misfits(run_with(entry, 1), row));
   }
 
   // d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
@@ -105,7 +99,7 @@ class IdentificationProblem {
   Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const {
     constexpr double step = 1e-3;
     Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
-    const PaperRow& paper = kPaperTable.at(row_);
+    const PaperRow& paper = kPaperTable.at(row);
     const Eigen::Vector4d half_digits(paper.max_half_digit[0], paper.max_half_digit[1],
                                       paper.mean_half_digit[0], paper.mean_half_digit[1]);
     const auto numbers = [&](std::size_t j, double factor) {
@@ -159,11 +153,6 @@ class IdentificationProblem {
     std::ranges::sort(profile.points, {}, &ProfilePoint::value);
     return profile;
   }
-
-  const StudyInputs& inputs_;
-  const FamilyLaw& law_;
-  std::string row_;
-  double rate_;
 };
 
 }  // namespace
@@ -206,7 +195,7 @@ Identification identify_one(const StudyInputs& inputs, const std::string& proble
     fault("unknown law '" + law + "'", name_remedy(law, laws, "laws"));
   if (!(rate >= 10 && rate <= 1e5)) fault("'" + number + "' is not a rate", "10 to 100000 Hz");
   faults.check();
-  return IdentificationProblem(inputs, family_law(law), row, rate).solve();
+  return IdentificationProblem{inputs, family_law(law), row, rate}.solve();
 }
 
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress) {
@@ -218,7 +207,7 @@ std::vector<Identification> identify(const StudyInputs& inputs, Progress& progre
     for (const char* row : {"E3", "E4", "E4-text"})
       for (const FamilyLaw& law : family_laws()) {
         if (row == std::string("E4-text") && !law.fits_row(row)) continue;
-        problems.emplace_back(inputs, law, row, rate);
+        problems.push_back({inputs, law, row, rate});
         steps.push_back(steps.back() + rate);
       }
   std::vector<Identification> found(problems.size());

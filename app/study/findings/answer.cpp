@@ -2,9 +2,6 @@
 // (tests/app/study/findings/test_answer.cpp).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/study/findings/findings.h"
 
 namespace twinarm {

@@ -3,12 +3,7 @@
 // and per frame, and stability limits.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
-#include <cmath>
-#include <numbers>
-
 #include "app/study/findings/findings.h"
-#include "solver/dynamics/model_builder.h"
 
 namespace twinarm {
 namespace {

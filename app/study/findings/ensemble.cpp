@@ -1,10 +1,6 @@
 #include "app/study/findings/findings.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/support/parallel_for.h"
-#include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {
 namespace {

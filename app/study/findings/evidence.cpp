@@ -1,13 +1,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
 #include "app/study/findings/findings.h"
 #include "app/support/parallel_for.h"
-#include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {
 namespace {

@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "app/support/text.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

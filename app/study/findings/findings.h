@@ -2,13 +2,7 @@
 // and the answer to its question.
 #pragma once
 
-#include <array>
-#include <string>
-#include <vector>
-
-#include "app/data/value.h"
 #include "app/study/findings/results.h"
-#include "app/support/progress.h"
 
 namespace twinarm {
 

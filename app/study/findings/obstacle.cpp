@@ -1,9 +1,6 @@
-#include <algorithm>
 
 #include "app/study/findings/findings.h"
 #include "collision/contact/contact_constraints.h"
-#include "collision/geometry/convex_hull.h"
-#include "collision/import/robot/robot_model.h"
 
 namespace twinarm {
 namespace {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/study/calibration/calibration.h"
-#include "app/study/calibration/identify.h"
 #include "app/study/study_run.h"
 
 namespace twinarm {

@@ -2,12 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <functional>
-#include <numbers>
-
-#include "coupling/target/synthetic_operator.h"
-
 namespace twinarm {
 namespace {
 

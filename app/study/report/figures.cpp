@@ -1,9 +1,5 @@
 // Figures over rates and variants.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 
 #include "app/study/report/report.h"

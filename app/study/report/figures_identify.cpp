@@ -1,7 +1,5 @@
 // Figure of the identification from Table 2: intervals of all parameters, by law.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 #include "app/study/report/report_slots.h"

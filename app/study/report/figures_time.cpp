@@ -1,8 +1,4 @@
 // Figures over time: 6a, 6b, 7c and 7d of the paper, the errors, and the run into the box.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"

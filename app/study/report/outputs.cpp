@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/data/json_writer.h"
 #include "app/study/findings/findings.h"

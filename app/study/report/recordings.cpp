@@ -1,13 +1,8 @@
 #include "app/study/report/report.h"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
 #include "app/film/rendering.h"
 #include "app/page/pages.h"
 #include "app/record/record_run.h"
-#include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/atomic_file.h"
 

@@ -1,16 +1,9 @@
 #include "app/study/report/report.h"
 
 #include <fmt/args.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
 
 #include "app/data/html_page.h"
 #include "app/study/report/report_slots.h"
-#include "app/support/files.h"
-#include "solver/support/atomic_file.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/input_file.h"
 
 namespace twinarm {

@@ -1,7 +1,4 @@
 // Slots of the report on the evidence: what the paper says as numbers, and each fit beside it.
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"

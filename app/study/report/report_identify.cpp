@@ -1,9 +1,4 @@
 // Slots of the report on the identification from Table 2, the search, and all parameters.
-#include <fmt/format.h>
-
-#include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 
 #include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"

@@ -1,9 +1,4 @@
 // Slots of the report on the runs: Table 2, Figures 6 and 7, variants, recordings, runs into a box.
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
 
 #include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"

@@ -1,7 +1,5 @@
 // Numbers with units, symbols and sentences of the report as HTML.
-#include <fmt/format.h>
 
-#include <cmath>
 #include <regex>
 
 #include "app/study/report/report_slots.h"

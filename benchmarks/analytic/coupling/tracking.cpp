@@ -19,8 +19,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 enum class Law { world, joint, linear };
 struct TrackedCoupling {
   Law law;

@@ -13,8 +13,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kGoldenStep = 0.01;
 
 // ---- G2 ----

@@ -8,8 +8,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 struct CartPole {
   double cart = 1, pole = 0.3, com = 0.5;
   double inertia = 0.3 / 12;  // about the centre of mass

@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 // ---- C8 ----
 
 constexpr double kArm = 0.02, kReach = 0.3, kBob = 0.2, kBobCom = 0.15, kBobInertia = 0.0015;

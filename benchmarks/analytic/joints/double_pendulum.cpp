@@ -8,8 +8,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kRightAngle = std::numbers::pi / 2;
 
 special::Rates double_pendulum_rates(const ChainLink& one, const ChainLink& two, Real gravity) {

@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 const Vector3 kG(0.3, -0.2, -kGravity);
 
 Model<double> tree(const Vector3& gravity) {

@@ -18,8 +18,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 CaseScene spinning(const Vector3& moments, const Vector3& w) {
   return start_at(free_body(1, moments), {0, 0, 0, 1, 0, 0, 0}, {w.x(), w.y(), w.z(), 0, 0, 0});
 }

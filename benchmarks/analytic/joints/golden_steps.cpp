@@ -4,8 +4,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 // Results of each fixed-step integrator for a pendulum of 1 m released at 90 degrees, h = 10 ms, by
 // an independent code.
 struct GoldenSteps {

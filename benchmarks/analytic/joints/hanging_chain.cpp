@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 CaseReadings laguerre_frequencies(int n) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
   for (int k = 0; k < n; ++k) {

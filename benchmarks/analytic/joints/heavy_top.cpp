@@ -13,8 +13,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kMoment = 1 * kGravity * 0.2, I1 = 0.05, I3 = 0.01, kTilt = 30 * kDegree;
 constexpr double kSpin = 100;
 

@@ -8,8 +8,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kShaken = 0.5, kShake = 0.02, kFromTop = 0.01, kFloquet = 156.65935736181;
 
 CaseScene shaken(double w, double from_top) {

@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kStiffness = 100, kDrive = 8, kForce = 5;
 
 CaseScene oscillator(double x0, double damping, double coulomb, double force) {

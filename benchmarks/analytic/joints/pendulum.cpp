@@ -13,8 +13,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 TrajectoryCase motion(CaseScene scene, std::vector<double> times, CaseReference reference) {
   return {.scene = fixed(std::move(scene)),
           .times = std::move(times),

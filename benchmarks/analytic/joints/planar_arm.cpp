@@ -4,7 +4,7 @@
 
 #include "solver/dynamics/dynamics.h"
 
-namespace twinarm::smooth_parts {
+namespace twinarm {
 
 Model<double> model_of(const PlanarArm& arm) {
   const auto link = [](double mass, double com, double inertia) {
@@ -29,12 +29,7 @@ PlanarArmTerms terms_of(const PlanarArm& arm, Real q2, Real qd1, Real qd2) {
           .C2 = h * qd1 * qd1};
 }
 
-}  // namespace twinarm::smooth_parts
-
-namespace twinarm {
 namespace {
-
-using namespace smooth_parts;
 
 constexpr int kArmStates = 10;
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/analytic/support/smooth_parts.h"
 
-namespace twinarm::smooth_parts {
+namespace twinarm {
 
 struct PlanarArm {
   double m1 = 5, m2 = 3;        // [kg]
@@ -29,4 +29,4 @@ inline special::Two accelerations_of(const PlanarArmTerms& terms, special::Two t
                             {torques.first - terms.C1, torques.second - terms.C2});
 }
 
-}  // namespace twinarm::smooth_parts
+}  // namespace twinarm

@@ -3,7 +3,6 @@
 // inverse and forward dynamics against an independent code, and against the digits that the
 // Robotics Toolbox publishes.
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "benchmarks/analytic/joints/puma560_values.h"
@@ -13,7 +12,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
 using puma560::Joints;
 
 struct PumaLink {

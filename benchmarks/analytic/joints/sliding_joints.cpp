@@ -11,8 +11,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kPitch = 0.1 / (2 * std::numbers::pi), kSlidingMass = 2, kScrewInertia = 0.05;
 
 // The axis points down: gravity drives it forward.

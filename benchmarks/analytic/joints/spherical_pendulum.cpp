@@ -9,8 +9,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 const Vector3 kRod(0, 0, -1);
 
 // On a spherical joint the rod needs an inertia about its axis, on which the motion does not

@@ -9,8 +9,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kAngle = 30 * kDegree;
 
 // The input shaft is inclined by b; the output shaft, kept on the world's z by a loop, is its child

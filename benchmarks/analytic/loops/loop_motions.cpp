@@ -14,8 +14,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 // Reference readings at the times of the table, else NAN.
 CaseReadings tabulated(const LoopCase& c, double t) {
   for (const LoopCase::Sample& sample : c.reference)

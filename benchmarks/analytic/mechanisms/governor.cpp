@@ -3,16 +3,12 @@
 // the sides of a slider on the shaft at height s. Start: rods 30 degrees below the horizontal, s =
 // 0.5 m, 2 pi rad/s. Rods and shaft are bars of 1 x 0.01 x 0.01 m, the slider a cube of 0.1 m, 3000
 // kg/m^3.
-#include <array>
-#include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {
 namespace {
-
-using namespace loop_parts;
 
 constexpr double k_coupler = 8e5, b_coupler = 4e4, rest_length = 0.5;
 const Vector3 kRodMiddle(0.5, 0, 0);  // in link axes

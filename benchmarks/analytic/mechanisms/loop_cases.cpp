@@ -3,10 +3,6 @@
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {
-
-using namespace loop_parts;
-using smooth_parts::kPi, smooth_parts::Real;
-
 namespace {
 
 // D1, from 90 degrees at rest: th = 2 asin(k sn(K - w0 t)), th' = -2 k w0 cn(K - w0 t).

@@ -54,11 +54,7 @@ LoopCase governor(Couplers couplers);
 LoopCase slider_crank();  // D6
 LoopCase four_bar();      // D7: angles and rates at one place
 
-}  // namespace twinarm
-
 // ---- parts of the mechanisms ----
-
-namespace twinarm::loop_parts {
 
 inline Pose at(double x, double y, double z) {
   return {Matrix3::Identity(), {x, y, z}};
@@ -85,4 +81,4 @@ inline LoopClosure hinge_closure(const std::string& name, int a, int b, const Ve
   return {name, LoopType::hinge, a, b, {z_along_y(), p_A}, {z_along_y(), p_B}};
 }
 
-}  // namespace twinarm::loop_parts
+}  // namespace twinarm

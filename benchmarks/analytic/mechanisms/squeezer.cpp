@@ -5,15 +5,12 @@
 // rotates about B by gamma and has E and the spring's end D; K5 and K7 rotate about A by delta and
 // epsilon, with H and G at their ends, about which K4 and K6 rotate by Phi and Omega; both end in
 // E.
-#include <array>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {
 namespace {
-
-using namespace loop_parts;
 
 constexpr double rr = 7e-3, ra = 92e-5, d = 28e-3, da = 115e-4, e = 2e-2, ea = 1421e-5, ss = 35e-3,
                  sa = 1874e-5, sb = 1043e-5, sc = 18e-3, sd = 2e-2, zt = 4e-2, ta = 2308e-5,

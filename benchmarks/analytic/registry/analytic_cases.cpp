@@ -1,9 +1,6 @@
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
-#include <algorithm>
 #include <sstream>
-
-#include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm {
 

@@ -6,13 +6,6 @@
 // integrator, and any other experiment (run).
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm {

@@ -1,8 +1,5 @@
 #include "benchmarks/analytic/support/contact_scene.h"
 
-#include "collision/shapes/shape.h"
-#include "solver/dynamics/energy_momentum.h"
-
 namespace twinarm {
 namespace {
 

@@ -4,17 +4,7 @@
 // velocities; an error of position is divided by the speed there and so becomes a time.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
 #include <initializer_list>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "collision/contact/contact_constraints.h"

@@ -1,6 +1,5 @@
 #include "benchmarks/analytic/support/smooth_parts.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "solver/dynamics/derivatives.h"
@@ -8,7 +7,7 @@
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/constrained_dynamics.h"
 
-namespace twinarm::smooth_parts {
+namespace twinarm {
 
 Model<double> weightless(Model<double> model) {
   model.gravity = {};
@@ -167,4 +166,4 @@ std::function<CaseReadings(double)> solution_of(special::Rates rates, special::N
   };
 }
 
-}  // namespace twinarm::smooth_parts
+}  // namespace twinarm

@@ -1,18 +1,12 @@
 // Mechanisms, observers and error measures of the cases without contact.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_source.h"
-#include "solver/model/workspace.h"
 
-namespace twinarm::smooth_parts {
+namespace twinarm {
 
 using ModelRef = const Model<double>&;
 using StateRef = const State<double>&;
@@ -120,4 +114,4 @@ CaseObserver absolute_angles();
 // Solution of the equations of motion `rates` from (q, qd) at time 0.
 std::function<CaseReadings(double)> solution_of(special::Rates rates, special::Numbers start);
 
-}  // namespace twinarm::smooth_parts
+}  // namespace twinarm

@@ -1,8 +1,6 @@
 #include "benchmarks/analytic/support/trajectory_case.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>

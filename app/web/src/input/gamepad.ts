@@ -14,11 +14,8 @@ export class Controller {
   private readonly down = [false, false];
 
   constructor(private readonly operator: Operator, showMessage: (text: string) => void) {
-    addEventListener(
-      'gamepadconnected',
-      ({ gamepad }) =>
-        showMessage(`${gamepad.id.split('(')[0].trim()}: sticks move the end effector, first button: gripper.`),
-    );
+    const words = 'sticks move the end effector, first button: gripper.';
+    addEventListener('gamepadconnected', ({ gamepad: { id } }) => showMessage(`${id.split('(')[0].trim()}: ${words}`));
   }
 
   // Once per picture.

@@ -103,8 +103,7 @@ export class Handles {
   showArc(stage: Stage, frame: Frame, joint: SceneJoint | null, value: number, reach: number): void {
     const found = joint && axisOf(frame, joint);
     if (!joint || !found) {
-      this.track.setAttribute('d', '');
-      this.turned.setAttribute('d', '');
+      for (const arc of [this.track, this.turned]) arc.setAttribute('d', '');
       return;
     }
     const { origin, direction: axis } = found;

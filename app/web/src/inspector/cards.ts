@@ -45,9 +45,7 @@ function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, 
 const ROWS = ['x', 'y', 'z', 'x', 'y', 'z'];
 const TOLERANCE = 1e-9; // larger residuals are shown
 
-function isMinus({ symbol }: Term): boolean {
-  return symbol.startsWith('- ');
-}
+const isMinus = ({ symbol }: Term): boolean => symbol.startsWith('- ');
 // Without the minus of the term. Numbers that are not finite come as null.
 function signed(term: Term): number[] {
   const numbers = term.value as number[];

@@ -3,8 +3,7 @@
 import './inspector.css';
 import type { BodyInspection, Vector } from '../protocol/messages';
 import { adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable } from './tables';
-import { button, element, icon, morph, short } from '../ui/dom';
-import { definition } from '../ui/glossary';
+import { button, definition, element, icon, morph, short } from '../ui/dom';
 import { key, listen } from '../ui/keys';
 import { token } from '../ui/preferences';
 import type { SceneMessage } from '../source/link';
@@ -222,6 +221,4 @@ export class Inspector implements Panel {
   }
 }
 
-function orHint(parts: Node[], text: string): Node[] {
-  return parts.length > 0 ? parts : [element('p.hint', text)];
-}
+const orHint = (parts: Node[], text: string): Node[] => (parts.length > 0 ? parts : [element('p.hint', text)]);

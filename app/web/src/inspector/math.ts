@@ -87,9 +87,7 @@ export function signedSum(parts: { sign: string; value: number }[]): Node[] {
   });
 }
 
-export function fraction(over: Node[], under: Node): Node {
-  return node('mfrac', node('mrow', ...over), under);
-}
+export const fraction = (over: Node[], under: Node): Node => node('mfrac', node('mrow', ...over), under);
 
 // "v = Xup v_p + S qd, table 7.1": the equation, and its place in RBDA.
 export function source(text: string): HTMLElement {

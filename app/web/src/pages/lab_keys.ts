@@ -19,6 +19,8 @@ function runKeys(page: Page): Key[] {
   ];
 }
 
+const SPRING = 'apply a spring force to the selected body with the arrow keys; x releases';
+
 // Arrow keys move the end effector, joint or spring if one is chosen, else they seek.
 function inputKeys(page: Page): Key[] {
   const { operator, keys, set: { time } } = page;
@@ -29,11 +31,7 @@ function inputKeys(page: Page): Key[] {
   return [
     key('h', 'move the end effector with the arrow keys, page up, page down', () => keys.focusTip()),
     key('j', 'move the next joint with the arrow keys', () => keys.nextJoint()),
-    key(
-      'x',
-      'apply a spring force to the selected body with the arrow keys; x releases',
-      () => keys.toggleSpring(page.selected),
-    ),
+    key('x', SPRING, () => keys.toggleSpring(page.selected)),
     key('← →', 'otherwise: seek; with shift by 0.5 s', {
       ArrowLeft: move(-1, 0, 0),
       ArrowRight: move(1, 0, 0),

@@ -2,8 +2,7 @@
 import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
-import { element } from '../ui/dom';
-import { definition, heading } from '../ui/glossary';
+import { definition, element, heading } from '../ui/dom';
 import { numberCell, putNumber, row, table, wide } from '../ui/table';
 import type { Panel } from './panel';
 import type { Player } from '../source/playhead';

@@ -9,7 +9,11 @@ const PATIENCE = 500; // until a lost connection is shown [ms]
 
 export class Hints {
   readonly look = element('section.look', { hidden: '', 'aria-label': 'what to look for' });
-  readonly again = button('What to look for', 'about this scene', () => this.fold(false));
+  readonly again = element(
+    'button',
+    { type: 'button', title: 'about this scene', hidden: '', click: () => this.fold(false) },
+    'What to look for',
+  );
   readonly hint = element('p.hint-line');
   readonly spoken = element('p.unseen', { role: 'status' }); // messages, for screen readers
   readonly banner = element('div.banner', { role: 'status', hidden: '' });
@@ -17,10 +21,6 @@ export class Hints {
   private until = 0;
   private scene = NaN; // its number
   private lostAt: number | null = 0;
-
-  constructor() {
-    this.again.hidden = true;
-  }
 
   show({ scene, look }: SceneMessage): void {
     if (scene === this.scene) return;

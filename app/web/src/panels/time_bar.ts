@@ -22,9 +22,7 @@ export function changeSpeed(clock: Clock, places: number): void {
   if (factor) clock.setSpeed(factor);
 }
 
-export function speedText(speed: number): string {
-  return SPEED_WORDS[SPEEDS.indexOf(speed)] ?? String(speed);
-}
+export const speedText = (speed: number): string => SPEED_WORDS[SPEEDS.indexOf(speed)] ?? String(speed);
 
 interface Shown {
   time: number | null; // null: unchanged

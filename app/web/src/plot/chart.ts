@@ -2,8 +2,7 @@
 // branch dotted, and a limit line.
 import uPlot from 'uplot';
 import { axesOfTime, drawOver, Gestures } from './chart_parts';
-import { button, element, short } from '../ui/dom';
-import { definition } from '../ui/glossary';
+import { button, definition, element, short } from '../ui/dom';
 import { token } from '../ui/preferences';
 import { branchCurves, type ChartExtras, colorOf, DASH, gapsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
 import { fileName, savePicture } from './export';

@@ -17,9 +17,7 @@ export type Window = { from: number; to: number };
 
 export type BranchCurve = { times: number[]; values: Points; color: string };
 
-export function colorOf(curve: Curve): string {
-  return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
-}
+export const colorOf = (curve: Curve): string => (token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`));
 
 function scaled(values: Points, factor: number): Points {
   if (factor === 1) return values;

@@ -200,6 +200,4 @@ export function isChanged({ value, start }: LabParameter): boolean {
 }
 
 // Another client has control.
-export function isViewOnly({ controller, you }: StateMessage): boolean {
-  return !!controller && controller !== you;
-}
+export const isViewOnly = ({ controller, you }: StateMessage): boolean => !!controller && controller !== you;

@@ -43,9 +43,7 @@ function unpackMesh({ low, high, uv, twoSided, ...packed }: PackedMesh): MeshDat
   return { position, normal, index, uv, twoSided };
 }
 
-function textOf(id: string): string {
-  return document.getElementById(id)?.textContent ?? '';
-}
+const textOf = (id: string): string => document.getElementById(id)?.textContent ?? '';
 
 // Without fetch(), which the page's content security policy forbids.
 function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap> {

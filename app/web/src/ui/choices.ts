@@ -1,6 +1,5 @@
 // Choice of one option: tabs of the side panel, segmented buttons.
-import { element } from './dom';
-import { definition } from './glossary';
+import { definition, element } from './dom';
 
 // Tabs of the side panel: one tab stop; arrow keys move between the tabs.
 export class Tabs {

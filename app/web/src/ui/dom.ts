@@ -142,3 +142,16 @@ export function morph(now: Element, wanted: Element): void {
   });
   while (now.childNodes.length > to.length) now.lastChild!.remove();
 }
+
+// Definitions of docs/reference/glossary.md, inserted by build.mjs.
+declare const GLOSSARY: Record<string, string> | undefined;
+const definitions = typeof GLOSSARY === 'undefined' ? {} : GLOSSARY;
+const terms = Object.keys(definitions).sort((a, b) => b.length - a.length);
+
+// Tooltip of a text that begins with a term; '': none.
+export function definition(text: string): string {
+  const term = terms.find((one) => text.toLowerCase().startsWith(one));
+  return term ? `${term}: ${definitions[term]}` : '';
+}
+
+export const heading = (title: string): HTMLElement => element('h3', { title: definition(title) }, title);

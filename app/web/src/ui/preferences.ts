@@ -1,4 +1,5 @@
-// Theme (the system's until the user chooses), and choices stored by the browser.
+// Theme (the system's until the user chooses), choices stored by the browser, buttons for a projector.
+import { button, icon } from './dom';
 
 export class Theme {
   private readonly system = matchMedia('(prefers-color-scheme: dark)');
@@ -14,9 +15,7 @@ export class Theme {
       chosen = this.dark;
       if (chosen) this.set(false);
     });
-    addEventListener('afterprint', () => {
-      if (chosen) this.set(true);
-    });
+    addEventListener('afterprint', () => chosen && this.set(true));
   }
 
   toggle(): void {
@@ -50,4 +49,20 @@ export function remember(name: string, value: unknown): void {
   } catch {
     // Storage may be disabled.
   }
+}
+
+// For a projector: large type, and the whole screen.
+export function presenterButtons(): HTMLButtonElement[] {
+  const show = (isLarge: boolean) => {
+    document.body.classList.toggle('large', isLarge);
+    type.setAttribute('aria-pressed', String(isLarge));
+    remember('large', isLarge);
+  };
+  const toggle = () => show(!document.body.classList.contains('large'));
+  const type = button('A+', 'A+: large type', toggle, 'presenter');
+  show(remembered('large', false));
+  if (!document.fullscreenEnabled) return [type];
+  const fill = () =>
+    void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
+  return [type, button(icon('full'), 'full screen', fill, 'presenter')];
 }

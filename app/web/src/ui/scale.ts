@@ -4,9 +4,7 @@ export type Scale = { form: 'log' | 'linear'; low: number; high: number };
 const DECADES = 6; // of a logarithmic slider whose lower end is zero
 const DIGITS = 3; // significant digits of a value set by a slider
 
-function foot(scale: Scale): number {
-  return scale.low > 0 ? scale.low : scale.high / 10 ** DECADES;
-}
+const foot = (scale: Scale): number => (scale.low > 0 ? scale.low : scale.high / 10 ** DECADES);
 
 export function placeOf(scale: Scale, value: number): number {
   const { form, low, high } = scale;
@@ -42,14 +40,10 @@ export function within({ low, high }: { low?: number; high?: number }, value: nu
   return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
 }
 
-function round(value: number): number {
-  return Number(value.toPrecision(DIGITS));
-}
+const round = (value: number): number => Number(value.toPrecision(DIGITS));
 
 // Without binary rounding: 0.3 for 0.30000000000000004.
-function tidy(value: number): number {
-  return Number(value.toPrecision(12));
-}
+const tidy = (value: number): number => Number(value.toPrecision(12));
 
 // 1, 2 or 5 times a power of ten, at most the size.
 export function niceStep(size: number): number {

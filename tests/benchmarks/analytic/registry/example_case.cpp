@@ -9,8 +9,6 @@
 namespace twinarm {
 namespace {
 
-using namespace smooth_parts;
-
 constexpr double kHangingMass = 2, kSpringRate = 50;
 
 CaseScene hanging_scene() {
