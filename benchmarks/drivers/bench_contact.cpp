@@ -2,72 +2,15 @@
 // is made by scripts/measure/bench.
 
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
 
 #include "benchmarks/drivers/command_line.h"
+#include "benchmarks/drivers/contact_measure.h"
 #include "benchmarks/drivers/timing.h"
-#include "benchmarks/scenes/mechanisms.h"
-#include "collision/detection/collision_world.h"
-#include "solver/dynamics/kinematics.h"
 
 namespace twinarm::bench {
 namespace {
-
-// Contact quality of a run: twinarm's collision detection at the coordinates that the engine
-// reports.
-class ContactMeasure {
- public:
-  explicit ContactMeasure(const TimedScene& timed) : timed_(timed), model_(model_of(timed.scene)) {
-    const Scene& scene = timed_.scene;
-    if (scene.obstacle)
-      world_.add({"obstacle", Box{2 * scene.obstacle->half}, 0, true});
-    else
-      world_.add({"floor", HalfSpace{}, 0, true});
-    for (const Body& b : scene.bodies) {
-      if (b.form == Form::sphere) world_.add({"ball", Sphere{b.half[0]}});
-      if (b.form == Form::box) world_.add({"box", Box{2 * b.half}});
-    }
-    X_WG_.resize(static_cast<std::size_t>(world_.size()));
-    if (scene.obstacle) X_WG_.front().p = scene.obstacle->centre;
-  }
-
-  // After each step; q as in Scene.
-  void measure(int step, const std::vector<double>& q) {
-    const Scene& scene = timed_.scene;
-    State<double> x(model_);
-    x.q = q;
-    if (!scene.obstacle)  // free bodies; some engines return quaternions in single precision
-      for (std::size_t i = 3; i < q.size(); i += 7) Eigen::Vector4d::Map(&x.q[i]).normalize();
-    const Kinematics k = kinematics_at(model_, x);
-    std::size_t shape = 1;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (scene.bodies[i].form != Form::none)
-        X_WG_[shape++] = {k.X_WL[i + 1].R, k.X_WL[i + 1] * scene.bodies[i].form_at};
-    std::vector<Contact> contacts;
-    world_.detect(X_WG_, 0.0, contacts);
-    penetration = drift = 0;
-    for (const Contact& contact : contacts) penetration = std::max(penetration, contact.depth);
-    max_penetration = std::max(max_penetration, penetration);
-    if (!scene.obstacle)
-      for (std::size_t i = 0; i < q.size(); i += 7)
-        drift = std::max(drift, std::hypot(q[i] - scene.q[i], q[i + 1] - scene.q[i + 1]));
-    else if (step < timed_.steps - timed_.steps / 5)
-      reference_ = X_WG_.back().p;
-    else
-      drift = (X_WG_.back().p - reference_).norm();
-  }
-
-  double penetration = 0, max_penetration = 0;  // deepest point of the last step, of all [m]
-  // Boxes: largest horizontal distance from the start [m]. Ball: creep in the last fifth of the run
-  // [m].
-  double drift = 0;
-
- private:
-  TimedScene timed_;
-  Model<double> model_;
-  CollisionWorld world_;
-  std::vector<Pose> X_WG_;  // the fixed shape first
-  Vector3 reference_ = Vector3::Zero();
-};
 
 using Json = nlohmann::ordered_json;
 
@@ -75,27 +18,57 @@ constexpr int steps_per_turn = 50;  // consecutive steps of one engine
 constexpr int settling = 300;       // steps until the piles are at rest
 constexpr double ns_per_s = 1e9;
 
+constexpr int steps_per_look = 10;  // in heaps: between two measurements of contact quality
+constexpr int quick_heap = 100;     // bodies at most with --quick
+
 struct Options {
   Names models{timed_scene_names.begin(), timed_scene_names.end()};
   Names engines;  // empty: all
+  double seconds = 30;
   bool quick = false;
   int repetitions() const { return quick ? 1 : 3; }
 };
 
-// Of one engine in one scene.
+// An engine with one of its schemes.
+struct Variant {
+  std::unique_ptr<Engine> engine;
+  Scheme scheme;
+  std::string name;  // of the engine; with the scheme, unless it is the first one
+};
+bool has_contact_schemes(const Engine& engine) {
+  return !engine.contact_schemes({}).empty();
+}
+std::vector<Variant> variants_of(const Options& options, const Scene& scene) {
+  std::vector<Variant> variants;
+  for (const auto& engine : engines_of_build(has_contact_schemes)) {
+    const std::string name = engine->name();
+    if (!chosen(options.engines, name)) continue;
+    for (const Scheme& scheme : engine->contact_schemes(scene)) {
+      Engines own = engines_of_build([&](const Engine& other) { return other.name() == name; });
+      const bool first = variants.empty() || variants.back().engine->name() != name;
+      variants.push_back(
+          {std::move(own.front()), scheme, first ? name : name + ", " + scheme.name});
+    }
+  }
+  return variants;
+}
+void start(const Variant& variant, const TimedScene& timed) {
+  variant.engine->load(timed.scene, variant.scheme, timed.h);
+}
+
+// ---- scenes of a constant size ----
+
+// Of one variant in one scene.
 struct Row {
   std::string engine, model;
   std::vector<double> whole, rest;  // by repetition: mean time of a step [s]
   Json observed;                    // contact quality, and of the solver where known
 };
 
-void start(Engine& engine, const TimedScene& timed) {
-  engine.load(timed.scene, engine.schemes(timed.scene).front(), timed.h);
-}
-
 // A separate run for the results, not timed.
-Json observe(Engine& engine, const TimedScene& timed) {
-  start(engine, timed);
+Json observe(const Variant& variant, const TimedScene& timed) {
+  start(variant, timed);
+  Engine& engine = *variant.engine;
   ContactMeasure measure(timed);
   std::optional<SolverReading> solver;  // largest residual, mean times of a step
   int unconverged = 0;                  // steps
@@ -124,16 +97,16 @@ Json observe(Engine& engine, const TimedScene& timed) {
   return json;
 }
 
-void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
-  std::vector<double> first(engines.size()), then(engines.size());
-  for (const auto& engine : engines) start(*engine, timed);
+void repeat(const std::vector<Variant>& variants, const TimedScene& timed, std::vector<Row>& rows) {
+  std::vector<double> first(variants.size()), then(variants.size());
+  for (const Variant& variant : variants) start(variant, timed);
   for (int step = 0; step < timed.steps; step += steps_per_turn)
-    for (std::size_t i = 0; i < engines.size(); ++i) {
+    for (std::size_t i = 0; i < variants.size(); ++i) {
       const double start = thread_seconds();
-      for (int k = 0; k < steps_per_turn; ++k) engines[i]->step();
+      for (int k = 0; k < steps_per_turn; ++k) variants[i].engine->step();
       (step < settling ? first : then)[i] += thread_seconds() - start;
     }
-  for (std::size_t i = 0; i < engines.size(); ++i) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     rows[i].whole.push_back((first[i] + then[i]) / timed.steps);
     rows[i].rest.push_back(then[i] / std::max(1, timed.steps - settling));
   }
@@ -142,18 +115,17 @@ void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
 std::vector<Row> measure(const Options& options, const std::string& model, Stages& stages) {
   TimedScene timed = timed_scene(model);
   if (options.quick) timed.steps = steps_per_turn;
-  Engines engines = engines_of_build(&Engine::is_timed_with_contacts);
-  std::erase_if(engines, [&](const auto& e) { return !chosen(options.engines, e->name()); });
-  std::vector<Row> rows(engines.size());
-  const auto count = static_cast<double>(engines.size());
-  for (std::size_t i = 0; i < engines.size(); ++i) {
-    rows[i].engine = engines[i]->name(), rows[i].model = model;
+  const std::vector<Variant> variants = variants_of(options, timed.scene);
+  std::vector<Row> rows(variants.size());
+  const auto count = static_cast<double>(variants.size());
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    rows[i].engine = variants[i].name, rows[i].model = model;
     stages.begin(model + ", " + rows[i].engine + ": contact quality", 1.0 / count);
-    rows[i].observed = observe(*engines[i], timed);
+    rows[i].observed = observe(variants[i], timed);
   }
   for (int repetition = 0; repetition < options.repetitions(); ++repetition) {
     stages.begin(model + ", all engines in turns");
-    repeat(engines, timed, rows);
+    repeat(variants, timed, rows);
   }
   return rows;
 }
@@ -169,12 +141,98 @@ Json json_of(const Row& row) {
   return json;
 }
 
-int run(const Options& options) {
-  Stages stages("bench_contact",
-                static_cast<double>(options.models.size()) * (1 + options.repetitions()));
+// ---- heaps ----
+
+struct HeapRun {
+  Variant variant;
+  ContactMeasure quality;
+  std::vector<double> seconds{};  // by step
+  double spent = 0, residual = NAN;
+  int unconverged = 0;    // steps
+  std::string stopped{};  // why the run is incomplete
+
+  // The steps of a turn; stops at `limit` [s] of computing.
+  void turn(const TimedScene& timed, double limit) try {
+    if (seconds.empty()) start(variant, timed);
+    std::vector<double> q, v;
+    for (int k = 1; k <= steps_per_turn && stopped.empty(); ++k) {
+      step();
+      if (spent > limit) stopped = "time limit";
+      if (k % steps_per_look != 0 && stopped.empty()) continue;
+      variant.engine->read(q, v);
+      if (std::ranges::all_of(q, [](double x) { return std::isfinite(x); }))
+        quality.measure(static_cast<int>(seconds.size()), q);
+      else
+        stopped = "not a number";
+    }
+  } catch (const std::exception& fault) {
+    stopped = fault.what();
+  }
+  void step() {
+    const double start = thread_seconds();
+    const std::optional<SolverReading> reading = variant.engine->watched_step();
+    seconds.push_back(thread_seconds() - start);
+    spent += seconds.back();
+    if (!reading) return;
+    residual = std::fmax(residual, reading->residual);
+    unconverged += reading->converged ? 0 : 1;
+  }
+};
+
+Json json_of(const HeapRun& run, const std::string& model) {
+  Json json = {
+      {"algorithm", "contact"},     {"engine", run.variant.name},  {"model", model},
+      {"bodies", heap_size(model)}, {"steps", run.seconds.size()}, {"stopped", run.stopped}};
+  if (run.seconds.empty()) return json;
+  const auto late = run.seconds.end() - std::max<std::ptrdiff_t>(1, std::ssize(run.seconds) / 4);
+  const auto mean_ns = [&](auto from) {
+    return ns_per_s * std::reduce(from, run.seconds.end()) /
+           static_cast<double>(run.seconds.end() - from);
+  };
+  json.update({{"ns", mean_ns(run.seconds.begin())},
+               {"median_ns", ns_per_s * median_of(run.seconds)},
+               {"worst_ns", ns_per_s * std::ranges::max(run.seconds)},
+               {"ns_rest", mean_ns(late)},
+               {"penetration", run.quality.penetration},
+               {"largest_penetration", run.quality.max_penetration},
+               {"escaped", run.quality.escaped()}});
+  if (!std::isnan(run.residual))
+    json.update({{"residual", run.residual}, {"unconverged", run.unconverged}});
+  return json;
+}
+
+// One run of each variant, in turns. `slow`: variants and forms of which a smaller heap was
+// stopped; they are omitted.
+Json measure_heap(const Options& options, const std::string& model, std::set<std::string>& slow) {
+  TimedScene timed = timed_scene(model);
+  if (options.quick) timed.steps = steps_per_turn;
+  const auto key = [&](const Variant& v) { return model.substr(0, 5) + v.name; };
+  std::vector<HeapRun> runs;
+  for (Variant& variant : variants_of(options, timed.scene))
+    if (!slow.contains(key(variant)))
+      runs.push_back(HeapRun{std::move(variant), ContactMeasure(timed)});
+  for (int step = 0; step < timed.steps; step += steps_per_turn)
+    for (HeapRun& run : runs) run.turn(timed, options.seconds);
   Json rows = Json::array();
+  for (const HeapRun& run : runs) {
+    rows.push_back(json_of(run, model));
+    if (!run.stopped.empty()) slow.insert(key(run.variant));
+  }
+  return rows;
+}
+
+int run(const Options& options) {
+  const double weight = 1 + options.repetitions();
+  Stages stages("bench_contact", static_cast<double>(options.models.size()) * weight);
+  Json rows = Json::array();
+  std::set<std::string> slow;
   for (const std::string& model : options.models)
-    for (const Row& row : measure(options, model, stages)) rows.push_back(json_of(row));
+    if (heap_size(model) == 0) {
+      for (const Row& row : measure(options, model, stages)) rows.push_back(json_of(row));
+    } else if (!options.quick || heap_size(model) <= quick_heap) {
+      stages.begin(model + ", all engines in turns", weight);
+      for (const Json& row : measure_heap(options, model, slow)) rows.push_back(row);
+    }
   std::cout << Json{{"rows", rows}}.dump(1) << '\n';
   return 0;
 }
@@ -191,9 +249,14 @@ int main(int argc, char** argv) {
       "bench_contact");
   Options o;
   add_names(program, "--models", o.models, "default: all", o.models);
-  const Names engines = names_of(engines_of_build(&Engine::is_timed_with_contacts));
+  const Names engines = names_of(engines_of_build(has_contact_schemes));
   add_names(program, "--engines", o.engines, "default: all of this build", engines);
-  program.add_flag("--quick", o.quick, "one repetition of the first 50 steps");
+  add_positive(
+      program, "--seconds", o.seconds,
+      "CPU time of an engine in a heap [s]; beyond it the run is stopped, and larger heaps "
+      "are omitted");
+  program.add_flag("--quick", o.quick,
+                   "one repetition of the first 50 steps; heaps of at most 100 bodies");
   add_list(program, "prints the engines", engines);
   program.footer(
       "Example: bench_contact --models pyr55 --engines \"twinarm double,bullet\"\n"

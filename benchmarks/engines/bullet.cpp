@@ -37,7 +37,7 @@ class Bullet final : public PeerEngine<BulletState> {
     });
     return diagonal ? "" : "Bullet wants bodies in the principal axes of their inertias";
   }
-  bool is_timed_with_contacts() const override { return true; }
+  std::vector<Scheme> contact_schemes(const Scene&) const override { return {{"semi-implicit"}}; }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
     begin(scene, h);

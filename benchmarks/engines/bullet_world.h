@@ -92,7 +92,7 @@ struct BulletWorld {
   btSequentialImpulseConstraintSolver solver;
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
-  std::unique_ptr<btCollisionObject> fixed;
+  std::vector<std::unique_ptr<btCollisionObject>> fixed;
   std::unique_ptr<btMultiBody> tree;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   btMultiBodyDynamicsWorld tree_world{&dispatcher, &broad_phase, &tree_solver, &configuration};
@@ -108,8 +108,8 @@ struct BulletWorld {
     else
       add_tree(scene);
     if (scene.floor) add_floor(scene);
-    if (scene.obstacle)
-      add_fixed(std::make_unique<btBoxShape>(bt(scene.obstacle->half)), bt(scene.obstacle->centre),
+    for (const Scene::FixedBox& box : scene.fixed_boxes)
+      add_fixed(std::make_unique<btBoxShape>(bt(box.half)), bt(box.centre),
                 std::sqrt(scene.friction), scene.restitution);
   }
   ~BulletWorld() {
@@ -133,12 +133,12 @@ struct BulletWorld {
   }
   void add_fixed(std::unique_ptr<btCollisionShape> shape, const btVector3& position,
                  double friction, double restitution) {
-    fixed = std::make_unique<btCollisionObject>();
-    fixed->setWorldTransform(btTransform(btQuaternion::getIdentity(), position));
-    fixed->setCollisionShape(shapes.emplace_back(std::move(shape)).get());
-    fixed->setFriction(bt(friction));
-    fixed->setRestitution(bt(std::sqrt(restitution)));
-    world.addCollisionObject(fixed.get(), btBroadphaseProxy::StaticFilter,
+    btCollisionObject& object = *fixed.emplace_back(std::make_unique<btCollisionObject>());
+    object.setWorldTransform(btTransform(btQuaternion::getIdentity(), position));
+    object.setCollisionShape(shapes.emplace_back(std::move(shape)).get());
+    object.setFriction(bt(friction));
+    object.setRestitution(bt(std::sqrt(restitution)));
+    world.addCollisionObject(&object, btBroadphaseProxy::StaticFilter,
                              btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
   }
   btCollisionShape* shape_of(const Body& b) {

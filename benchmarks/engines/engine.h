@@ -54,7 +54,8 @@ class Engine {
   virtual std::string refusal(const Scene&) const { return {}; }  // why the scene is not supported
   // Integrations of a scene that is supported, the engine's default first.
   virtual std::vector<Scheme> schemes(const Scene&) const { return {}; }
-  virtual bool is_timed_with_contacts() const { return false; }  // in bench_contact
+  // Of a scene with contacts that bench_contact times in this engine; empty: it does not.
+  virtual std::vector<Scheme> contact_schemes(const Scene&) const { return {}; }
   virtual void load(const Scene&, const Scheme&, double /*step_or_tolerance*/) {}
   virtual void step() {}                 // timed; adaptive schemes choose its size
   virtual void advance(double /*t*/) {}  // timed; to a multiple of the step

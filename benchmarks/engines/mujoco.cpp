@@ -3,8 +3,8 @@
 // header: mujoco/mujoco.h
 // libraries: mujoco
 //
-// Scenes: mj_step with each of its integrators; contacts by Newton's method and elliptic cones,
-// otherwise defaults. It has no coefficient of restitution.
+// Scenes: mj_step with each of its integrators; contacts by Newton's method (also by CG, for
+// bench_contact) and elliptic cones, otherwise defaults. It has no coefficient of restitution.
 //
 // Algorithms: smooth dynamics, by only those calls of mj_forward that the result requires. No
 // collision, constraints, actuators or passive forces (the models have none, and mj_passive would
@@ -61,21 +61,24 @@ struct MujocoRun {
 // written to separate files, each included at its first body.
 class Mjcf {
  public:
-  Mjcf(const Scene& scene, const std::string& integrator, double h) : scene_(scene) {
+  Mjcf(const Scene& scene, const std::string& integrator, double h,
+       const std::string& solver = "Newton")
+      : scene_(scene) {
+    const std::size_t contacts = std::max<std::size_t>(1000, 10 * scene.bodies.size());
     std::string xml =
-        "<mujoco><compiler angle=\"radian\"/><size njmax=\"3000\" nconmax=\"1000\"/>"
-        "<option timestep=\"" +
+        "<mujoco><compiler angle=\"radian\"/><size njmax=\"" + std::to_string(3 * contacts) +
+        "\" nconmax=\"" + std::to_string(contacts) + "\"/><option timestep=\"" +
         mjcf(std::array{h}) + "\" gravity=\"" + mjcf(scene.gravity) + "\" integrator=\"" +
-        integrator + "\" solver=\"Newton\" cone=\"elliptic\">" +
+        integrator + "\" solver=\"" + solver + "\" cone=\"elliptic\">" +
         (scene.has_contacts() ? "" : "<flag constraint=\"disable\" contact=\"disable\"/>") +
         "</option><worldbody>";
     // Friction of a pair is the maximum, unless one surface has priority.
     if (scene.floor)
       xml += "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\"" + surface(scene.floor_friction);
     xml += children(-1, 1);
-    if (scene.obstacle)
-      xml += "<geom type=\"box\" pos=\"" + mjcf(scene.obstacle->centre) + "\" size=\"" +
-             mjcf(scene.obstacle->half) + "\"" + surface(scene.friction);
+    for (const Scene::FixedBox& box : scene.fixed_boxes)
+      xml += "<geom type=\"box\" pos=\"" + mjcf(box.centre) + "\" size=\"" + mjcf(box.half) + "\"" +
+             surface(scene.friction);
     files.emplace_back("model.xml", xml + "</worldbody></mujoco>");
   }
   std::vector<std::pair<std::string, std::string>> files;  // name and text; the model is last
@@ -132,11 +135,14 @@ class MuJoCo final : public PeerEngine<Situation> {
   std::string refusal(const Scene& scene) const override {
     return scene.restitution > 0 ? "MuJoCo has no coefficient of restitution" : "";
   }
-  bool is_timed_with_contacts() const override { return true; }
+  std::vector<Scheme> contact_schemes(const Scene&) const override {
+    return {{"Euler"}, {kConjugate}};
+  }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
     begin(scene, h);
-    run_ = MujocoRun(Mjcf(scene, scheme.name, h).files);
+    run_ = scheme.name == kConjugate ? MujocoRun(Mjcf(scene, "Euler", h, "CG").files)
+                                     : MujocoRun(Mjcf(scene, scheme.name, h).files);
     std::copy(scene.q.begin(), scene.q.end(), data()->qpos);
     const std::vector<double> v = swapped(scene.v);
     std::copy(v.begin(), v.end(), data()->qvel);
@@ -248,6 +254,8 @@ class MuJoCo final : public PeerEngine<Situation> {
         break;
     }
   }
+  static constexpr const char* kConjugate = "CG";  // Euler, contacts by conjugate gradients
+
   static void position(const mjModel* m, mjData* d) {
     mj_kinematics(m, d);
     mj_comPos(m, d);  // also computes the com-based inertias and motion axes of crb and rne

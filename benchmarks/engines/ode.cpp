@@ -63,6 +63,9 @@ class Ode final : public FixedStepEngine {
   Ode& operator=(const Ode&) = delete;
   std::string name() const override { return "ode"; }
   std::vector<Scheme> schemes(const Scene&) const override { return {{"step"}, {"quick"}}; }
+  std::vector<Scheme> contact_schemes(const Scene& scene) const override {
+    return std::vector<Scheme>(scene.control ? 0 : 1, {"quick"});  // control is not applied
+  }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
     begin(scene, h);
@@ -75,13 +78,16 @@ class Ode final : public FixedStepEngine {
     if (scene.uncorrected) dWorldSetERP(world_, 0), dWorldSetCFM(world_, 0);
     set_joints();
     if (scene.floor) dCreatePlane(space_, 0, 0, 1, 0);
+    for (const auto& [centre, half] : scene.fixed_boxes)
+      dGeomSetPosition(dCreateBox(space_, 2 * half[0], 2 * half[1], 2 * half[2]), centre[0],
+                       centre[1], centre[2]);
   }
   void step() override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Vector3d& F = scene_.bodies[i].push;
       if (!F.isZero(0)) dBodyAddForce(bodies_[i], F[0], F[1], F[2]);
     }
-    if (scene_.floor) dSpaceCollide(space_, this, &Ode::near);
+    if (scene_.has_contacts()) dSpaceCollide(space_, this, &Ode::near);
     if (quick_)
       dWorldQuickStep(world_, h_);
     else
@@ -141,10 +147,11 @@ class Ode final : public FixedStepEngine {
   }
   static void near(void* self, dGeomID a, dGeomID b) {
     Ode& ode = *static_cast<Ode*>(self);
+    if (dGeomGetBody(a) == nullptr && dGeomGetBody(b) == nullptr) return;  // both fixed
     constexpr int kMax = 8;
     dContact contacts[kMax] = {};
     const int count = dCollide(a, b, kMax, &contacts[0].geom, sizeof(dContact));
-    const bool floor = dGeomGetBody(a) == nullptr || dGeomGetBody(b) == nullptr;
+    const bool floor = dGeomGetClass(a) == dPlaneClass || dGeomGetClass(b) == dPlaneClass;
     for (int i = 0; i < count; ++i) {
       dSurfaceParameters& surface = contacts[i].surface;
       surface.mode = dContactApprox1 | (ode.scene_.restitution > 0 ? dContactBounce : 0);

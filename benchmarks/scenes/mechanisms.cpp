@@ -143,11 +143,17 @@ Scene humanoid30() {
 // Cubes of 1 kg.
 constexpr double box_edge = 0.1, contact_friction = 0.6;
 
+// From there on the name is a number from 1 to 9999.
+bool has_count(const std::string& name, std::size_t first) {
+  return name.size() > first && name.size() < first + 5 && name[first] != '0' &&
+         name.find_first_not_of("0123456789", first) == std::string::npos;
+}
+
 Scene pushing_scara() {
   Scene scene = scara3();
   Body& last = scene.bodies.back();
   last.form = Form::sphere, last.half = {0.02, 0.02, 0.02}, last.form_at = {0.14, 0, 0};
-  scene.obstacle = {{0.2206, 0.3053, 0.13}, {box_edge / 2, box_edge / 2, box_edge / 2}};
+  scene.fixed_boxes = {{{0.2206, 0.3053, 0.13}, Vector3d::Constant(box_edge / 2)}};
   scene.control = Control{{0.6, 0.3, 0.2}, 20, 0.5};
   scene.q.assign(3, 0), scene.v.assign(3, 0);
   return scene;
@@ -175,8 +181,17 @@ void add_free_body(Scene& scene, const Body& body, const Vector3d& p, const Vect
   scene.v.insert(scene.v.end(), {0, 0, 0, v[0], v[1], v[2]});
 }
 
+int heap_size(const std::string& name) {
+  for (const std::string form : {"spheres", "boxes"})
+    if (name.starts_with(form) && has_count(name, form.size()))
+      return std::stoi(name.substr(form.size()));
+  return 0;
+}
+
 TimedScene timed_scene(const std::string& name) {
   TimedScene timed{{}, 2e-3, 2000};
+  if (const int count = heap_size(name); count > 0)
+    return {heap(name.starts_with("boxes") ? Form::box : Form::sphere, count), 2e-3, 750};
   Scene& scene = timed.scene;
   const auto add_box = [&](int row, double x) {
     add_free_body(scene, solid_cube(1, box_edge), {x, 0, 0.055 + 0.101 * row});
@@ -190,9 +205,10 @@ TimedScene timed_scene(const std::string& name) {
     for (int row = 0; row < 10; ++row)
       for (int i = 0; i < 10 - row; ++i) add_box(row, 0.11 * (i - (9 - row) / 2.0));
   } else {
-    throw std::invalid_argument("no scene " + name + ": there are wall100, pyr55, scara");
+    throw std::invalid_argument("no scene " + name +
+                                ": there are wall100, pyr55, scara, spheresN, boxesN");
   }
-  scene.floor = !scene.obstacle;
+  scene.floor = scene.fixed_boxes.empty();
   scene.floor_friction = scene.friction = contact_friction;
   return timed;
 }
@@ -201,9 +217,7 @@ Scene mechanism(const std::string& name) {
   if (name == "scara3") return scara3();
   if (name == "puma6") return puma6();
   if (name == "humanoid30") return humanoid30();
-  if (name.starts_with("chain") && name.size() > 5 && name.size() < 10 &&
-      name.find_first_not_of("0123456789", 5) == std::string::npos && name[5] != '0')
-    return chain(std::stoi(name.substr(5)));
+  if (name.starts_with("chain") && has_count(name, 5)) return chain(std::stoi(name.substr(5)));
   throw std::invalid_argument("no model " + name +
                               ": there are scara3, puma6, humanoid30 and chainN, N from 1 to 9999");
 }

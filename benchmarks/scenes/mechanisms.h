@@ -6,6 +6,8 @@
 //   wall100  ten columns of ten boxes; gaps of 1 mm close by falling, then at rest
 //   pyr55    a pyramid of 55 boxes, dropped likewise; each box rests on two others
 //   scara    the arm scara3; PD control pushes a ball at its tip into a fixed box
+//   spheresN, boxesN  a heap: N bodies of 0.1 m and 1 kg fall into a container, friction 0.5; the
+//            floor area is proportional to N
 #pragma once
 
 #include "benchmarks/scenes/scene.h"
@@ -25,7 +27,12 @@ struct TimedScene {
   double h;
   int steps;
 };
-inline constexpr std::array<const char*, 3> timed_scene_names = {"wall100", "pyr55", "scara"};
+inline constexpr std::array<const char*, 13> timed_scene_names = {
+    "wall100",     "pyr55",   "scara",    "spheres30", "spheres100", "spheres300", "spheres1000",
+    "spheres3000", "boxes30", "boxes100", "boxes300",  "boxes1000",  "boxes3000"};
+Scene heap(Form form, int count);  // of spheres or boxes
+// The number of bodies of a heap of that name; 0: not a heap.
+int heap_size(const std::string& name);
 TimedScene timed_scene(const std::string& name);  // throws std::invalid_argument
 
 // The mechanism of a scene as a Model with the same coordinates and velocities.

@@ -63,10 +63,10 @@ struct Scene {
   struct FixedBox {
     Vector3d centre, half;  // axes along the world's [m]
   };
-  std::optional<FixedBox> obstacle{};  // friction as of two bodies
+  std::vector<FixedBox> fixed_boxes{};  // friction as of two bodies
   std::optional<Control> control{};
 
-  bool has_contacts() const { return floor || obstacle; }
+  bool has_contacts() const { return floor || !fixed_boxes.empty(); }
   bool floats() const { return !bodies.empty() && bodies[0].joint == Joint::free; }
 };
 
