@@ -11,6 +11,7 @@ void IslandSleep::update(const Step& step) {
   ImpulseProblem& problem = step.problem;
   quiet_.resize(static_cast<std::size_t>(problem.tree_count()));
   in_island_.assign(quiet_.size(), 0);
+  const double max_change = std::max(step.accuracy, speed_ * step.h / kStart);
   for (const ImpulseIsland::Members& island : step.islands) {
     double speed = 0, change = 0;
     for (const int t : island.trees)
@@ -20,7 +21,7 @@ void IslandSleep::update(const Step& step) {
         change = nan_max(change,
                          std::abs(v - step.before[problem.first(t) + static_cast<std::size_t>(k)]));
       }
-    const bool rests = speed <= speed_ && change <= step.accuracy;
+    const bool rests = speed <= speed_ && change <= max_change;
     for (const int t : island.trees) {
       double& quiet = quiet_[static_cast<std::size_t>(t)];
       quiet = rests ? std::min(kTime, quiet + step.h) : 0;

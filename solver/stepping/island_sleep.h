@@ -1,6 +1,6 @@
 // Sleep of islands at rest: trees joined by constraints whose velocities have stayed below a speed
-// for kTime, without changing by more than the accuracy of the impulses in a step. An island asleep
-// has no velocity, and its coordinates keep their bits. In each step its former impulses are only
+// for kTime, with accelerations that would take kStart to reach it. An island asleep has no
+// velocity, and its coordinates keep their bits. In each step its former impulses are only
 // checked, as nothing has changed; where a contact, a force or a support has, the solution moves
 // the island, and it wakes.
 #pragma once
@@ -15,7 +15,7 @@ namespace twinarm {
 
 class IslandSleep {
  public:
-  static constexpr double kTime = 0.5;  // [s]
+  static constexpr double kTime = 0.5, kStart = 2;  // [s]
 
   // Largest velocity of a coordinate at rest [m/s, rad/s]; 0: nothing sleeps.
   void set_speed(double speed) { speed_ = speed; }

@@ -57,14 +57,14 @@ class Sleep(ProgramTest):
         self.assertAlmostEqual(x[0], x[1], delta=1e-6)
 
     def test_a_box_that_slides_ever_so_slowly_does_not_fall_asleep(self):
-        # Slope 1:2, friction 1e-5 below it: acceleration 1e-5 g cos.
+        # Slope 1:2, friction 2e-4 below it: it reaches the speed in 0.6 s.
         slope = FLOOR % "-0.4472135954999579, 0, 0.8944271909999159"
-        box = """friction = 0.49999
+        box = """friction = 0.4998
 [[body]]
 name = "box"
 shape = { box = { size = [0.2, 0.2, 0.1] } }
 mass = 1
-friction = 0.49999
+friction = 0.4998
 position = [-0.022360679774997897, 0, 0.044721359549995794]
 orientation = [0.9732489894677301, 0, -0.22975292054736118, 0]
 """
