@@ -17,6 +17,10 @@ constexpr double kColdSweeps = 20, kExactSweeps = 100;
 constexpr double kFirstSweeps = 200, kSweepsPerNewton = 20;
 // Newton steps that the budget must allow: to begin with them; for interior_point.cpp after sweeps.
 constexpr double kAmple = 100, kInterior = 40;
+// At coarse accuracy the residual is looked at after each kLook sweeps with changes below so many
+// times the accuracy.
+constexpr int kLook = 10;
+constexpr double kLookFactor = 10;
 constexpr double kSweepsToNewton = 1e-6;  // change in a sweep before Newton steps are tried [m/s]
 
 }  // namespace
@@ -158,7 +162,10 @@ void IslandSolver::run_sweeps(double max_sweeps, ImpulseReport& report) {
     island_.work += island_.sweep_work;
     const bool ends =
         try_newton && change <= kSweepsToNewton && island_.has_budget(2 * matrix_.work());
-    if (!ends && change > island_.wanted.accepted) continue;
+    const double accepted = island_.wanted.accepted;
+    const bool looks =
+        !is_exact() && sweeps % kLook == kLook - 1 && change <= kLookFactor * accepted;
+    if (!ends && !looks && change > accepted) continue;
     island_.keep_best(island_.apply_impulses());
     if (!ends || is_solved()) continue;
     try_newton = false;
