@@ -30,7 +30,8 @@ SLEEP = "sleep = 1e-3\n"
 
 class Sleep(ProgramTest):
     def run_of(self, text, duration, *options):
-        return self.json_of("simulate", self.write("scene.toml", text), "--duration", duration, "--every", 0.5, *options)
+        file = self.write("scene.toml", text)
+        return self.json_of("simulate", file, "--duration", duration, "--every", 0.5, *options)
 
     def test_a_stack_at_rest_keeps_its_bits_and_has_no_velocity(self):
         samples = self.run_of(SLEEP + FLOOR % "0, 0, 1" + BOXES, 3)["samples"]
@@ -90,8 +91,8 @@ linear_velocity = [0.005, 0, 0]
         self.assertAlmostEqual(answer["momentum"]["numerical"]["linear"][0], 0, delta=1e-12)
 
     def test_located_events_refuse_it(self):
-        result = self.twinarm("simulate", self.write("scene.toml", SLEEP + 'contact = "event"\n' + FLOOR % "0, 0, 1" + BOXES),
-                              code=2)
+        scene = SLEEP + 'contact = "event"\n' + FLOOR % "0, 0, 1" + BOXES
+        result = self.twinarm("simulate", self.write("scene.toml", scene), code=2)
         self.assertIn("sleep", result.stderr)
 
 
