@@ -8,7 +8,7 @@ namespace twinarm {
 namespace {
 
 constexpr double kFirstRho = NewtonPhase::kFirstRho, kLargeRho = 1e4;
-// Newton steps: before interior_point.cpp is tried, also of a small island from a guess; after it.
+// Newton steps: before interior_point.cpp is tried, also of a small island; after it.
 constexpr int kQuickNewton = 12, kQuickNewtonSmall = NewtonPhase::kFewSteps, kLargeNewton = 60;
 constexpr int kRestartFactor = 4;  // times kMaxNewton
 // Sweeps at first: of a small island without a guess; of a larger one, exactly; else so many, or
@@ -64,14 +64,16 @@ bool IslandSolver::has_warm_start() const {
   });
 }
 
-// Whether a face rests on another: more than three contacts between two trees, and clearly more
-// rows than velocities. Sweeps would distribute its impulses in the order of its contacts.
-bool IslandSolver::has_faces() const {
+// Not with loops and mimics, which sweeps hardly solve, nor where a face rests on another, whose
+// impulses they would distribute in the order of its contacts: more than three contacts between two
+// trees, and clearly more rows than velocities.
+bool IslandSolver::suits_sweeps() const {
   std::size_t rows = 0, velocities = 0;
   int contacts = 0, most = 0;  // in sequence between two trees
   std::array<int, 2> last{};
   for (const int i : island_.constraints()) {
     const ImpulseConstraint& c = island_.constraint(i);
+    if (c.law == ConstraintType::bilateral) return false;
     rows += static_cast<std::size_t>(c.rows);
     if (c.law != ConstraintType::coulomb_cone) continue;
     contacts = contacts > 0 && last == c.tree ? contacts + 1 : 1;
@@ -79,7 +81,7 @@ bool IslandSolver::has_faces() const {
     last = c.tree;
   }
   island_.for_each_velocity([&](std::size_t) { ++velocities; });
-  return most > 3 && 5 * rows > 6 * velocities;
+  return most <= 3 || 5 * rows <= 6 * velocities;
 }
 
 // Phases until the residual is accepted. Sets the best p and returns its residual.
@@ -104,19 +106,19 @@ double IslandSolver::run_phases(bool full, ImpulseReport& report) {
 
 void IslandSolver::start_small(ImpulseReport& report) {
   const bool warm = has_warm_start();
-  if (const bool sweeps = !warm && !has_faces(); sweeps || warm) {
+  if (const bool sweeps = !warm && suits_sweeps(); sweeps || warm) {
     if (sweeps) run_sweeps(kColdSweeps, report);
     if (!is_solved()) island_.keep_best(newton_.solve_near(report));
   }
   if (is_solved()) return;
   island_.apply_impulses(guess_p_);
-  newton_.solve(warm ? kQuickNewtonSmall : kQuickNewton, kFirstRho, report);
+  newton_.solve(kQuickNewtonSmall, kFirstRho, report);
 }
 
 void IslandSolver::start_large(bool interior_follows, ImpulseReport& report) {
   const bool exact = is_exact() && island_.has_budget(kAmple * matrix_.work());
   if (exact) {
-    if (!has_faces()) run_sweeps(kExactSweeps, report);
+    if (suits_sweeps()) run_sweeps(kExactSweeps, report);
     if (!is_solved()) newton_.solve(kQuickNewton, kFirstRho, report);
   } else {
     const double as_newton = kSweepsPerNewton * matrix_.work() / island_.sweep_work;

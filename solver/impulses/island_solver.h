@@ -1,7 +1,8 @@
 // Solver of one island of impulse_problem.h, in phases; the best p is kept:
 //   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
 //   start        of small islands from a guess Newton steps (newton_phase.h); else sweeps
-//                (conjugate_sweeps.h), unless a face rests on another, then Newton steps
+//                (conjugate_sweeps.h), unless there are loops or a face rests on another, then
+//                Newton steps
 //   interior     interior_point.cpp as start of further Newton steps; then central_path.cpp, path
 //                following from several starts
 //   end          small islands are refined to rounding by Newton steps
@@ -42,7 +43,7 @@ class IslandSolver {
   void start_small(ImpulseReport& report);
   void start_large(bool interior_follows, ImpulseReport& report);
   bool has_warm_start() const;
-  bool has_faces() const;
+  bool suits_sweeps() const;
   bool is_solved() const { return island_.best <= island_.wanted.accepted; }
   bool is_exact() const;
 

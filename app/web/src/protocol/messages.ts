@@ -18,7 +18,7 @@ type RunKind = 'coordinate' | 'target' | 'error' | 'energy' | 'coupling' | 'cont
 export interface SceneChannel {
   name: string; // "q/arm/joint1", "coupling/pull_arm1"
   unit: string; // SI
-  kind: RunKind | 'mouse_spring' | 'device' | 'time' | 'variant';
+  kind: RunKind | 'mouse_spring' | 'device' | 'time' | 'contacts' | 'variant';
   of: string; // joint, coupling, pair, body
 }
 
