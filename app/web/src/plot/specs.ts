@@ -48,6 +48,7 @@ export class PlotSpecs {
       ...this.plain('mouse_spring', 'Mouse spring force', acting('mouse_spring')),
       ...this.coordinates('m'),
       ...this.plain('energies', 'Energies', this.of('energy')),
+      ...this.plain('contact_laws', 'Contact laws', acting('contacts')),
       ...this.loop(step),
     ].filter((spec) => spec.curves.length > 0);
   }
@@ -199,7 +200,7 @@ function curve(column: number, name: string, color: number, style: Curve['style'
 
 // Channels of the run itself have their own names, others those of their joint, coupling or pair.
 function labelOf({ name, kind, of }: SceneChannel): string {
-  const isOwn = kind === 'device' || kind === 'time' || kind === 'mouse_spring';
+  const isOwn = kind === 'device' || kind === 'time' || kind === 'mouse_spring' || kind === 'contacts';
   return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
 }
 
