@@ -1,4 +1,4 @@
-// First phase of island_solver.h for many constraints: block Gauss-Seidel sweeps, each constraint
+// First phase of island_solver.h: block Gauss-Seidel sweeps, each constraint
 // solved exactly with the others held, accelerated as a nonlinear conjugate-gradient method
 // (Silcowitz-Hansen, Niebe and Erleben 2010). A sweep costs a hundredth of a Newton step. Sweeps
 // identify sticking and sliding in tens to hundreds of sweeps; towers of redundant contacts, whose

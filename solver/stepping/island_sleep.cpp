@@ -8,7 +8,7 @@
 namespace twinarm {
 
 void IslandSleep::update(const Step& step) {
-  ImpulseProblem& problem = step.problem;
+  const ImpulseProblem& problem = step.problem;
   quiet_.resize(static_cast<std::size_t>(problem.tree_count()));
   in_island_.assign(quiet_.size(), 0);
   const double max_change = std::max(step.accuracy, speed_ * step.h / kStart);

@@ -21,12 +21,12 @@ class IslandSleep {
   void set_speed(double speed) { speed_ = speed; }
   bool is_on() const { return speed_ > 0; }
   struct Step {
-    ImpulseProblem& problem;                          // solved
+    const ImpulseProblem& problem;                    // solved
     std::span<const ImpulseIsland::Members> islands;  // of the solution
     const std::vector<double>& before;                // velocities at the start, as in v0
-    double accuracy, h;
+    double accuracy, h;                               // of the impulses [m/s]; step size [s]
   };
-  void update(const Step& step);
+  void update(const Step& step);  // at the end of each step
   bool is_asleep(int tree) const {
     return !quiet_.empty() && quiet_[static_cast<std::size_t>(tree)] >= kTime;
   }
