@@ -13,6 +13,8 @@
 namespace twinarm {
 namespace {
 
+constexpr double kRealTimeAccuracy = 1e-4;  // of impulses with a budget [m/s]
+
 RunDefaults defaults_of(const SceneDescription& scene) {
   return {scene.duration, scene.step, scene.integrator.value_or(Integrator::semi_implicit),
           scene.contact == ContactMode::event};
@@ -164,8 +166,10 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     const auto mode = choose("--contact", options.contact, kContactModes, "possible", faults);
     if (mode && description) description->contact = static_cast<ContactMode>(*mode);
   }
-  if (options.budget && description && description->budget == 0)
+  if (options.budget && description && description->budget == 0) {
     description->budget = *options.budget;
+    description->accuracy = description->accuracy.value_or(kRealTimeAccuracy);
+  }
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
   if (!options.robot.gravity.empty())

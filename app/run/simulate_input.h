@@ -25,7 +25,9 @@ struct RunSettings {
   std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
   std::string integrator;                // as in solver/integration/integrator.h; may be empty
   std::string contact;                   // "rigid" ..; may be empty
-  std::optional<double> budget;          // of the contact solver, unless the scene sets one [1/s]
+  // Of the contact solver, unless the scene sets one [1/s]; then with an accuracy of 1e-4 m/s,
+  // unless the scene sets that.
+  std::optional<double> budget;
 };
 
 struct SimulateOptions : RunSettings {

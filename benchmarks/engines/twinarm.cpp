@@ -181,8 +181,9 @@ class Twinarm final : public TwinarmPasses<double> {
       add_shapes();
       simulation_->add(*contacts_);
       if (scheme.name == kLocated) simulation_->locate_events();
-      if (scheme.name == kCoarse) simulation_->set_impulse_effort(1e-4, 0);
-      if (scheme.name == kRealTime) simulation_->set_impulse_effort(5e-9, 1e9);  // as the lab
+      if (scheme.name == kCoarse)
+        simulation_->set_impulse_effort(1e-4, 2e8 * static_cast<double>(scene.bodies.size()));
+      if (scheme.name == kRealTime) simulation_->set_impulse_effort(1e-4, 1e9);  // as the lab
     } else {
       simulation_->set_integrator(find_integrator(scheme.name).value(), h);
     }
@@ -192,7 +193,8 @@ class Twinarm final : public TwinarmPasses<double> {
     const double h = scheme_.adaptive ? std::min(0.1, until_ - t()) : h_;
     const StepReport report = simulation_->step(h, scheme_.adaptive);
     // Steps that end by the budget: counted by the watched run.
-    const bool counted = scheme_.name == kRealTime || (contacts_ && contacts_->watched);
+    const bool counted =
+        scheme_.name == kCoarse || scheme_.name == kRealTime || (contacts_ && contacts_->watched);
     if (!report.ok() && !(counted && report.finite))
       throw std::runtime_error("the run stopped by itself");
   }

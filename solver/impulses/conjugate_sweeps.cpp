@@ -9,8 +9,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kRegularisation = 1e-12;  // of W, relative to its trace: redundant rows
-constexpr int kMaxSlidingSteps = 12;
+constexpr double kRegularisation = 1e-12;    // of W, relative to its trace: redundant rows
+constexpr std::size_t kMaxOpenBatches = 32;  // that are looked at for a free lane
 
 // Inverse of the leading rows x rows block of a symmetric matrix, made positive definite.
 Mat inverse_of(const Mat& W, int rows) {
@@ -36,27 +36,33 @@ Mat inverse_of(const Mat& W, int rows) {
 void ConjugateSweeps::start(ImpulseIsland& island) {
   island_ = &island;
   ImpulseProblem& problem = *(problem_ = island.problem);
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  local_.resize(all.size()), change_.resize(all.size()), direction_.resize(all.size());
-  v_.resize(problem.nv()), v_direction_.resize(problem.nv());
+  const std::size_t count = problem.constraints().size(), nv = problem.nv();
+  local_.resize(count), change_.resize(count), direction_.resize(count);
+  last_v_.resize(nv), v_direction_.resize(nv), v_.assign(nv + 6, 0.0);
   Y_.resize(problem.jacobian_size());
+  batches_.clear(), others_.clear(), first_open_ = 0;
   for (const int i : island.constraints()) {
-    ImpulseConstraint& c = island.constraint(i);
+    const ImpulseConstraint& c = island.constraint(i);
+    bool batched =
+        c.law == ConstraintType::coulomb_cone && island.next_disc[i] < 0 && c.tree[0] != c.tree[1];
     for (int side = 0; side < 2; ++side) {
-      if (c.tree[side] == ImpulseConstraint::no_tree) continue;
       const int tree = c.tree[side];
-      std::copy_n(problem.J(c, side), c.rows * problem.size(tree), Y_.data() + c.J[side]);
-      for (int r = 0; r < c.rows; ++r)
-        island.solve_tree(tree, Y_.data() + c.J[side] + r * problem.size(tree));
+      if (tree == ImpulseConstraint::no_tree) continue;
+      const int n = problem.size(tree);
+      std::copy_n(problem.J(c, side), c.rows * n, Y_.data() + c.J[side]);
+      for (int r = 0; r < c.rows; ++r) island.solve_tree(tree, Y_.data() + c.J[side] + r * n);
+      batched = batched && n == 6;
     }
     set_local(c, i);
     change_[i] = direction_[i] = {};
+    batched ? add_to_batch(c, i) : others_.push_back(i);
   }
-  island_->for_each_velocity([&](std::size_t k) { v_[k] = problem.v(0)[k], v_direction_[k] = 0; });
+  island.for_each_velocity(
+      [&](std::size_t k) { v_[k] = last_v_[k] = problem.v(0)[k], v_direction_[k] = 0; });
   squared_ = last_squared_ = 0;
 }
 
-void ConjugateSweeps::set_local(ImpulseConstraint& c, int i) {
+void ConjugateSweeps::set_local(const ImpulseConstraint& c, int i) {
   Local& local = local_[i];
   local = {};
   Mat& W = local.W;
@@ -77,11 +83,63 @@ void ConjugateSweeps::set_local(ImpulseConstraint& c, int i) {
   }
 }
 
+// Whether a lane is free, and no other has one of these bodies.
+bool ConjugateSweeps::fits(const ImpulseConstraint& c, const ConeBatch& batch) const {
+  if (batch.constraint.back() >= 0) return false;
+  for (const int i : batch.constraint) {
+    if (i < 0) break;
+    for (const int tree : island_->constraint(i).tree)
+      if (tree != ImpulseConstraint::no_tree && (tree == c.tree[0] || tree == c.tree[1]))
+        return false;
+  }
+  return true;
+}
+
+// The lanes are filled in sequence.
+void ConjugateSweeps::add_to_batch(const ImpulseConstraint& c, int i) {
+  std::size_t at = first_open_;
+  while (at < batches_.size() && !fits(c, batches_[at])) ++at;
+  if (at == batches_.size()) {
+    ConeBatch& batch = batches_.emplace_back();
+    batch.constraint.fill(-1);
+    batch.local.W[0] = batch.local.S[0] = batch.local.S[2] = 1;  // of the lanes that stay free
+    for (auto& side : batch.first) side.fill(static_cast<int>(problem_->nv()));
+    if (at - first_open_ >= kMaxOpenBatches) ++first_open_;
+  }
+  ConeBatch& batch = batches_[at];
+  const auto lane =
+      static_cast<int>(std::ranges::find(batch.constraint, -1) - batch.constraint.begin());
+  batch.constraint[lane] = i;
+  const auto copy = [lane](const double* from, auto& to) {
+    for (std::size_t k = 0; k < to.size(); ++k) to[k].set(lane, from[k]);
+  };
+  for (int side = 0; side < 2; ++side) {
+    if (c.tree[side] == ImpulseConstraint::no_tree) continue;
+    batch.first[side][lane] = static_cast<int>(problem_->first(c.tree[side]));
+    copy(problem_->J(c, side), batch.J[side]);
+    copy(Y_.data() + c.J[side], batch.Y[side]);
+  }
+  const Local& local = local_[i];
+  copy(local.W.data(), batch.local.W), copy(local.inverse.data(), batch.local.inverse);
+  copy(local.S.data(), batch.local.S), copy(local.w.data(), batch.local.w);
+  copy(c.b.data(), batch.b), copy(c.p.data(), batch.p);
+  batch.mu.set(lane, c.mu), batch.inverse_rho.set(lane, 1 / island_->rho0[i]);
+}
+
+void ConjugateSweeps::write_impulses() {
+  for (const ConeBatch& batch : batches_)
+    for (int lane = 0; lane < ConeBatch::kLanes; ++lane)
+      if (const int i = batch.constraint[lane]; i >= 0)
+        for (int r = 0; r < 3; ++r) island_->constraint(i).p[r] = batch.p[r][lane];
+}
+
+// With a step along the conjugate direction (Fletcher and Reeves); restart while the changes
+// increase.
 double ConjugateSweeps::sweep() {
-  extrapolate();
-  double largest = 0;
-  squared_ = 0;
-  for (const int i : island_->constraints()) {
+  const double beta = last_squared_ > 0 && squared_ <= last_squared_ ? squared_ / last_squared_ : 0;
+  extrapolate(beta);
+  auto [squared, largest] = sweep_cones(batches_, beta, v_.data());
+  for (const int i : others_) {
     ImpulseConstraint& c = island_->constraint(i);
     const Vec p = solve_constraint(c, i);
     Vec& change = change_[i];
@@ -92,31 +150,30 @@ double ConjugateSweeps::sweep() {
     for (int side = 0; side < 2; ++side)
       if (const int t = c.tree[side]; t != ImpulseConstraint::no_tree)
         with_shape(c.rows, problem_->size(t), [&](auto rows, auto n) {
-          add_transposed_product(Y_.data() + c.J[side], rows, n, change.data(), problem_->v(t));
+          add_transposed_product(Y_.data() + c.J[side], rows, n, change.data(),
+                                 v_.data() + problem_->first(t));
         });
-    squared_ += here / island_->rho0[i];
+    squared += here / island_->rho0[i];
     largest = std::max(largest, here / (island_->rho0[i] * island_->rho0[i]));
   }
+  squared_ = squared;
   return std::sqrt(largest);
 }
 
-// Step along the conjugate direction (Fletcher and Reeves); restart while the changes increase.
-void ConjugateSweeps::extrapolate() {
-  const double beta = last_squared_ > 0 && squared_ <= last_squared_ ? squared_ / last_squared_ : 0;
+void ConjugateSweeps::extrapolate(double beta) {
   last_squared_ = squared_;
-  for (const int i : island_->constraints()) {
+  for (const int i : others_) {
     Vec &direction = direction_[i], &p = island_->constraint(i).p;
     for (int r = 0; r < 3; ++r) {
       p[r] += beta * direction[r];
       direction[r] = beta > 0 ? beta * direction[r] + change_[i][r] : 0;
     }
   }
-  double* v = problem_->v(0);
   island_->for_each_velocity([&](std::size_t k) {
-    const double change = v[k] - v_[k];
-    v[k] += beta * v_direction_[k];
+    const double change = v_[k] - last_v_[k];
+    v_[k] += beta * v_direction_[k];
     v_direction_[k] = beta > 0 ? beta * v_direction_[k] + change : 0;
-    v_[k] = v[k];
+    last_v_[k] = v_[k];
   });
 }
 
@@ -124,7 +181,7 @@ void ConjugateSweeps::extrapolate() {
 Vec ConjugateSweeps::solve_constraint(const ImpulseConstraint& c, int i) {
   Local& local = local_[i];
   Vec u;
-  problem_->velocity(c, problem_->v(0), u);
+  problem_->velocity(c, v_.data(), u);
   for (int r = 0; r < c.rows; ++r) u[r] += c.b[r];
   Vec p = c.p;
   switch (c.law) {
@@ -152,62 +209,18 @@ Vec ConjugateSweeps::solve_constraint(const ImpulseConstraint& c, int i) {
   }
   const Vec own = times(local.W, p);
   for (int r = 0; r < 3; ++r) u[r] -= own[r];
-  return c.law == ConstraintType::coulomb_cone ? solve_cone(c, local, u) : solve_disc(c, local, u);
+  return c.law == ConstraintType::coulomb_cone ? solve_cone(c.mu, u, local)
+                                               : solve_disc(c, local, u);
 }
 
 // q: velocity without this impulse.
-Vec ConjugateSweeps::solve_cone(const ImpulseConstraint& c, Local& local, const Vec& q) {
-  if (q[0] >= 0) return {};
-  Vec p = times(local.inverse, q);
-  for (double& x : p) x = -x;
-  if (p[0] >= 0 && p[1] * p[1] + p[2] * p[2] <= c.mu * c.mu * p[0] * p[0]) return p;
-  const double a = -q[0] / local.W[0];
-  const auto t = slide({c.mu, a, {q[1] + local.W[1] * a, q[2] + local.W[2] * a}}, local);
-  const double p_n = std::max(0.0, a - local.w[0] * t[0] - local.w[1] * t[1]);
-  const double norm = std::sqrt(t[0] * t[0] + t[1] * t[1]);
-  const double scale = norm > 0 ? c.mu * p_n / norm : 0;
-  return {p_n, scale * t[0], scale * t[1]};
-}
-
 Vec ConjugateSweeps::solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q) {
   const double radius = c.radius * std::max(0.0, island_->constraint(c.of).p[0]);
   if (radius == 0) return {};
-  Vec p = times(local.inverse, q);
-  for (double& x : p) x = -x;
+  const Vec p = sticking_impulse(local, q);
   if (p[0] * p[0] + p[1] * p[1] <= radius * radius) return p;
-  const auto t = slide({1, radius, {q[0], c.rows > 1 ? q[1] : 0}}, local);
-  const double norm = std::sqrt(t[0] * t[0] + t[1] * t[1]);
-  return {radius * t[0] / norm, radius * t[1] / norm, 0};
-}
-
-// Newton's method on mu p_n / |p_t| = 1, which is linear in lambda for S = s 1, w = 0; bracketed.
-std::array<double, 2> ConjugateSweeps::slide(const Sliding& problem, Local& local) {
-  const double aa = local.S[0], ab = local.S[1], bb = local.S[2];
-  const auto solve = [&](double lambda, const std::array<double, 2>& right) {
-    const double x = aa + lambda, y = bb + lambda, det = x * y - ab * ab;
-    return std::array{(y * right[0] - ab * right[1]) / det, (x * right[1] - ab * right[0]) / det};
-  };
-  double low = 0, high = INFINITY, lambda = local.lambda;
-  std::array<double, 2> t{};
-  for (int k = 0; k < kMaxSlidingSteps; ++k) {
-    t = solve(lambda, {-problem.g[0], -problem.g[1]});
-    const auto slope = solve(lambda, {-t[0], -t[1]});
-    const double norm2 = t[0] * t[0] + t[1] * t[1], norm = std::sqrt(norm2);
-    const double p_n = problem.a - local.w[0] * t[0] - local.w[1] * t[1];
-    const double error = problem.mu * p_n / norm - 1;
-    if (std::abs(error) < 1e-12 || !(norm > 0)) break;
-    (error < 0 ? low : high) = lambda;
-    const double change = problem.mu / norm *
-                          (-local.w[0] * slope[0] - local.w[1] * slope[1] -
-                           p_n * (t[0] * slope[0] + t[1] * slope[1]) / norm2);
-    const double newton = lambda - error / change;
-    if (newton > low && newton < high)
-      lambda = newton;
-    else
-      lambda = high < INFINITY ? 0.5 * (low + high) : 2 * lambda + aa + bb;
-  }
-  local.lambda = lambda;
-  return t;
+  const Vec slides = slide(1.0, radius, {q[0], c.rows > 1 ? q[1] : 0}, local);
+  return {slides[1], slides[2], 0};
 }
 
 }  // namespace twinarm

@@ -1,51 +1,49 @@
 // First phase of island_solver.h: block Gauss-Seidel sweeps, each constraint
 // solved exactly with the others held, accelerated as a nonlinear conjugate-gradient method
-// (Silcowitz-Hansen, Niebe and Erleben 2010). A sweep costs a hundredth of a Newton step. Sweeps
-// identify sticking and sliding in tens to hundreds of sweeps; towers of redundant contacts, whose
-// errors decay slowly, are left to the phases that follow.
+// (Silcowitz-Hansen, Niebe and Erleben 2010). Contacts of free bodies come first, several in a SIMD
+// batch. A sweep costs a hundredth of a Newton step. Sweeps identify sticking and sliding in tens
+// to hundreds of sweeps; towers of redundant contacts, whose errors decay slowly, are left to the
+// phases that follow.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "solver/impulses/cone_batch.h"
 #include "solver/impulses/impulse_island.h"
 
 namespace twinarm {
 
 class ConjugateSweeps {
  public:
-  // Constants of the island for sweep().
+  // Constants of the island for sweep(); from p of the constraints and v of the trees, which must
+  // satisfy the momentum balance.
   void start(ImpulseIsland& island);
-  // One sweep: changes p of the constraints and v of the trees, which must satisfy the momentum
-  // balance. Returns the maximum change of an impulse, as a velocity [m/s, rad/s].
+  // One sweep. Returns the maximum change of an impulse, as a velocity [m/s, rad/s].
   double sweep();
+  void write_impulses();  // p of the constraints
 
  private:
-  // W: J M^-1 J^T of the constraint; inverse: of W. Of a cone, with p_n eliminated by u_n = 0:
-  //   p_n = a - w . p_t,    S p_t + g = u_t.
-  struct Local {
-    Mat W{}, inverse{};
-    std::array<double, 3> S{};  // aa, ab, bb
-    std::array<double, 2> w{};
-    double lambda = 0;  // of the last sliding solution: u_t = -lambda p_t
-  };
-  struct Sliding {  // |p_t| = mu (a - w . p_t), (S + lambda) p_t = -g
-    double mu, a;
-    std::array<double, 2> g;
-  };
-  void set_local(ImpulseConstraint& c, int i);
+  using Local = LocalProblem<double>;
+  void set_local(const ImpulseConstraint& c, int i);
+  bool fits(const ImpulseConstraint& c, const ConeBatch& batch) const;
+  void add_to_batch(const ImpulseConstraint& c, int i);
   Vec solve_constraint(const ImpulseConstraint& c, int i);
-  Vec solve_cone(const ImpulseConstraint& c, Local& local, const Vec& q);
   Vec solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q);
-  static std::array<double, 2> slide(const Sliding& problem, Local& local);
-  void extrapolate();
+  void extrapolate(double beta);
 
   ImpulseIsland* island_ = nullptr;
   ImpulseProblem* problem_ = nullptr;
-  std::vector<double> Y_;                  // M^-1 J^T, laid out as J
-  std::vector<Local> local_;               // by constraint
-  std::vector<Vec> change_, direction_;    // by constraint
-  std::vector<double> v_, v_direction_;    // by velocity: before the sweep; of direction_
+  std::vector<ConeBatch> batches_;
+  std::size_t first_open_ = 0;  // of the batches with a free lane
+  std::vector<int> others_;     // constraints that are in no batch
+  // By constraint; change_ and direction_ of the others.
+  std::vector<Local> local_;
+  std::vector<Vec> change_, direction_;
+  std::vector<double> Y_;  // M^-1 J^T, laid out as J
+  // By velocity: now, with six zeros at the end in place of the world's; before the sweep; of
+  // direction_.
+  std::vector<double> v_, last_v_, v_direction_;
   double squared_ = 0, last_squared_ = 0;  // changes of the last two sweeps
 };
 

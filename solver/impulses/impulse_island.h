@@ -3,6 +3,7 @@
 // island_solver.h share it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct ImpulseAccuracy {
   double accepted = 5e-9;    // residual of an accepted solution [m/s]
   double tolerance = 1e-10;  // target residual of the iterations [m/s]
   double budget = 1e10;      // floating-point operations for one island, about
+  void limit_to_default() {
+    const ImpulseAccuracy at_most;
+    good_guess = std::min(good_guess, at_most.good_guess);
+    accepted = std::min(accepted, at_most.accepted);
+    tolerance = std::min(tolerance, at_most.tolerance);
+  }
   bool is_to_rounding() const { return good_guess < tolerance; }  // event-driven steps
 };
 
@@ -45,7 +52,9 @@ class ImpulseIsland {
   ImpulseConstraint& constraint(int i) const {
     return problem->constraints()[static_cast<std::size_t>(i)];
   }
-  bool is_small() const { return constraints().size() <= 8; }
+  // Small islands are solved exactly whatever the accuracy.
+  static bool is_small(const Members& members) { return members.constraints.size() <= 8; }
+  bool is_small() const { return is_small(*members_); }
   // f(index in v) for each velocity.
   template <class F>
   void for_each_velocity(F&& f) const {

@@ -70,9 +70,10 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, std::size_t island, bo
                                  IslandSolver& solver, ImpulseReport& report) {
   const ImpulseIsland::Members& members = islands_[island];
   char& again = solve_again_[static_cast<std::size_t>(members.trees.front())];
-  IslandSolver::Request request{accuracy, full, again != 0};
+  IslandSolver::Request request{accuracy, full, full && again != 0};
+  if (ImpulseIsland::is_small(members)) request.accuracy.limit_to_default();
   const double residual = solver.solve(problem, members, request, report);
-  again = request.again;
+  if (full) again = request.again;
   for (const int t : members.trees) trees_[static_cast<std::size_t>(t)] = {residual, request.work};
   report.residual = nan_max(report.residual, residual);
   report.converged = report.converged && residual <= accuracy.accepted;

@@ -21,6 +21,8 @@ constexpr double kAmple = 100, kInterior = 40;
 // times the accuracy.
 constexpr int kLook = 10;
 constexpr double kLookFactor = 10;
+// Residual of a guess of an island that is almost at rest, relative to the accuracy.
+constexpr double kAlmostAtRest = 10;
 constexpr double kSweepsToNewton = 1e-6;  // change in a sweep before Newton steps are tried [m/s]
 
 }  // namespace
@@ -41,12 +43,16 @@ double IslandSolver::solve(ImpulseProblem& problem, const ImpulseIsland::Members
   ++report.solved;
   matrix_.set(island_);
   if (!(residual <= wanted.accepted)) island_.keep_best(residual);
+  guess_residual_ = residual;
   residual = run_phases(request.full, report);
   if (!island_.has_budget() && !(residual <= wanted.accepted)) residual = island_.scale_impulses();
   const double required = wanted.is_to_rounding() ? wanted.tolerance : wanted.accepted;
   const bool affords_newton = residual > wanted.tolerance && island_.has_budget(3 * matrix_.work());
   if (island_.is_small() || (affords_newton && (is_exact() || !(residual <= required))))
     residual = newton_.refine(residual);
+  // An error of this solution is a velocity, which the next impulses remove, but not those after
+  // the next.
+  request.again = request.again || residual > 10 * wanted.tolerance;
   request.work = island_.work;
   return residual;
 }
@@ -121,6 +127,14 @@ void IslandSolver::start_large(bool interior_follows, ImpulseReport& report) {
     if (suits_sweeps()) run_sweeps(kExactSweeps, report);
     if (!is_solved()) newton_.solve(kQuickNewton, kFirstRho, report);
   } else {
+    // An island that hardly changes: after a good solution its next guesses are accepted.
+    if (!suits_sweeps() && guess_residual_ <= kAlmostAtRest * island_.wanted.accepted &&
+        island_.has_budget(kQuickNewton * matrix_.work())) {
+      island_.wanted.tolerance *= 0.01;
+      newton_.solve(kLargeNewton, kFirstRho, report);
+      if (is_solved()) return;
+      island_.apply_impulses(guess_p_);
+    }
     const double as_newton = kSweepsPerNewton * matrix_.work() / island_.sweep_work;
     run_sweeps(interior_follows ? std::max(kFirstSweeps, as_newton)
                                 : std::numeric_limits<double>::infinity(),
@@ -168,6 +182,7 @@ void IslandSolver::run_sweeps(double max_sweeps, ImpulseReport& report) {
     const bool looks =
         !is_exact() && sweeps % kLook == kLook - 1 && change <= kLookFactor * accepted;
     if (!ends && !looks && change > accepted) continue;
+    sweeps_.write_impulses();
     island_.keep_best(island_.apply_impulses());
     if (!ends || is_solved()) continue;
     try_newton = false;
@@ -176,7 +191,9 @@ void IslandSolver::run_sweeps(double max_sweeps, ImpulseReport& report) {
     if (!is_solved()) island_.apply_impulses(swept_p_);
   }
   report.sweeps = std::max(report.sweeps, sweeps);
-  if (!is_solved()) island_.keep_best(island_.apply_impulses());
+  if (is_solved()) return;
+  sweeps_.write_impulses();
+  island_.keep_best(island_.apply_impulses());
 }
 
 }  // namespace twinarm

@@ -52,6 +52,7 @@ class IslandSolver {
   NewtonPhase newton_{island_, matrix_};
   InteriorPhase interior_{island_, matrix_};
   ConjugateSweeps sweeps_;
+  double guess_residual_ = 0;
   std::vector<Vec> guess_p_, swept_p_;  // by constraint
 };
 

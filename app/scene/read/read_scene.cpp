@@ -55,7 +55,7 @@ void SceneReader::read(const Value& root) {
   scene.gravity = table.vector("gravity").value_or(scene.gravity);
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
-  scene.accuracy = table.positive("accuracy").value_or(scene.accuracy);
+  scene.accuracy = table.positive("accuracy");
   scene.budget = table.positive("budget").value_or(scene.budget);
   scene.sleep = table.positive("sleep").value_or(scene.sleep);
   if (const auto law = table.choice("contact", kContactModes))

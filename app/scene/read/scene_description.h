@@ -157,9 +157,9 @@ struct SceneDescription {
   double step = 0.001;  // [s]
   ContactMode contact = ContactMode::rigid;
   Detection detection = Detection::own;
-  double accuracy = 5e-9;  // of contact impulses: residual of the laws [m/s]
-  double budget = 0;       // of contact impulses: operations per simulated second [1/s]; 0: none
-  double sleep = 0;        // largest velocity at which islands fall asleep [m/s, rad/s]; 0: none do
+  std::optional<double> accuracy;  // of contact impulses: residual of the laws [m/s]
+  double budget = 0;  // of contact impulses: operations per simulated second [1/s]; 0: none
+  double sleep = 0;   // largest velocity at which islands fall asleep [m/s, rad/s]; 0: none do
   std::optional<Integrator> integrator;
   std::optional<double> duration;  // [s]; the command line overrides it
   std::vector<RobotInScene> robots;
