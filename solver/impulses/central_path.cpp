@@ -15,12 +15,10 @@
 //   corrector  Newton's method in the plane normal to the tangent; without fast convergence back to
 //              the last point with a shorter predictor
 // Lengths are measured in the Nesterov-Todd scaling. Cost: 20 to 300 factorisations.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "solver/impulses/interior_phase.h"
-#include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm {
 namespace {

@@ -3,26 +3,14 @@
 #include <algorithm>
 
 namespace twinarm {
-namespace {
-
-using T = ConeBatch::T;
-
-inline T gather(const double* v, const std::array<int, ConeBatch::kLanes>& first, int k) {
-  T out;
-  for (int l = 0; l < ConeBatch::kLanes; ++l) out.lanes[l] = v[first[l] + k];
-  return out;
-}
-
-}  // namespace
 
 // Compiled for two levels of the instruction set; without contraction, so that the bits are equal.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__)
-#define TWINARM_TWO_LEVELS __attribute__((flatten, target_clones("avx2", "default")))
-#else
-#define TWINARM_TWO_LEVELS
+__attribute__((flatten, target_clones("avx2", "default")))
 #endif
-
-TWINARM_TWO_LEVELS ConeSums sweep_cones(std::vector<ConeBatch>& batches, double beta, double* v) {
+ConeSums
+sweep_cones(std::vector<ConeBatch>& batches, double beta, double* v) {
+  using T = ConeBatch::T;
   T squared, largest;
   for (ConeBatch& batch : batches) {
     std::array<T, 3> p, q;
@@ -35,7 +23,8 @@ TWINARM_TWO_LEVELS ConeSums sweep_cones(std::vector<ConeBatch>& batches, double 
     std::array<std::array<T, 6>, 2> velocity;
     for (int side = 0; side < 2; ++side)
       for (int k = 0; k < 6; ++k) {
-        velocity[side][k] = gather(v, batch.first[side], k);
+        const auto [a, b, c, d] = batch.first[side];
+        velocity[side][k] = T::of(T::Lanes{v[a + k], v[b + k], v[c + k], v[d + k]});
         for (int r = 0; r < 3; ++r) q[r] = q[r] + batch.J[side][6 * r + k] * velocity[side][k];
       }
     for (int r = 0; r < 3; ++r)

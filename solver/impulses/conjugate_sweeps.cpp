@@ -1,35 +1,14 @@
 #include "solver/impulses/conjugate_sweeps.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "solver/impulses/block_matrices.h"
+#include "solver/linear_algebra/block_matrices.h"
 #include "solver/linear_algebra/second_order_cone.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kRegularisation = 1e-12;    // of W, relative to its trace: redundant rows
-constexpr std::size_t kMaxOpenBatches = 32;  // that are looked at for a free lane
-
-// Inverse of the leading rows x rows block of a symmetric matrix, made positive definite.
-Mat inverse_of(const Mat& W, int rows) {
-  std::array<double, 9> A{}, L{};
-  double trace = 0;
-  for (int r = 0; r < rows; ++r) trace += W[4 * r];
-  for (int r = 0; r < rows; ++r)
-    for (int k = 0; k < rows; ++k)
-      A[r * rows + k] = W[3 * r + k] + (r == k ? kRegularisation * trace : 0);
-  Mat out{};
-  if (!(trace > 0) || !cholesky(A.data(), rows, L.data())) return out;
-  for (int k = 0; k < rows; ++k) {
-    Vec column{};
-    column[k] = 1;
-    solve_cholesky(L.data(), rows, column.data());
-    for (int r = 0; r < rows; ++r) out[3 * r + k] = column[r];
-  }
-  return out;
-}
+constexpr double kRegularisation = 1e-12;  // of W, relative to its trace: redundant rows
+constexpr double kImmovable = 1e200;       // W of a constraint that moves nothing
+constexpr std::size_t kOpenBatches = 32;   // that are looked at for a free lane
 
 }  // namespace
 
@@ -40,7 +19,7 @@ void ConjugateSweeps::start(ImpulseIsland& island) {
   local_.resize(count), change_.resize(count), direction_.resize(count);
   last_v_.resize(nv), v_direction_.resize(nv), v_.assign(nv + 6, 0.0);
   Y_.resize(problem.jacobian_size());
-  batches_.clear(), others_.clear(), first_open_ = 0;
+  batches_.clear(), others_.clear();
   for (const int i : island.constraints()) {
     const ImpulseConstraint& c = island.constraint(i);
     bool batched =
@@ -63,7 +42,7 @@ void ConjugateSweeps::start(ImpulseIsland& island) {
 }
 
 void ConjugateSweeps::set_local(const ImpulseConstraint& c, int i) {
-  Local& local = local_[i];
+  LocalProblem<double>& local = local_[i];
   local = {};
   Mat& W = local.W;
   for (int side = 0; side < 2; ++side) {
@@ -74,37 +53,35 @@ void ConjugateSweeps::set_local(const ImpulseConstraint& c, int i) {
       for (int s = 0; s < c.rows; ++s)
         for (int k = 0; k < n; ++k) W[3 * r + s] += J[r * n + k] * Y[s * n + k];
   }
-  local.inverse = inverse_of(W, c.rows);
-  if (c.law == ConstraintType::coulomb_cone) {
-    local.w = {W[1] / W[0], W[2] / W[0]};
+  const double trace = W[0] + W[4] + W[8];
+  for (int r = 0; r < 3; ++r) W[4 * r] += trace > 0 ? kRegularisation * trace : kImmovable;
+  if (c.law == ConstraintType::friction_disc)  // no normal row
+    local.S = {W[0], W[1], W[4]};
+  else
+    local.w = {W[1] / W[0], W[2] / W[0]},
     local.S = {W[4] - W[1] * local.w[0], W[5] - W[2] * local.w[0], W[8] - W[2] * local.w[1]};
-  } else {
-    local.S = {W[0], W[1], c.rows > 1 ? W[4] : 1};
-  }
+  const auto& [aa, ab, bb] = local.S;
+  const double det = aa * bb - ab * ab;
+  local.inverse = {1 / W[0], bb / det, -ab / det, aa / det};
 }
 
 // Whether a lane is free, and no other has one of these bodies.
 bool ConjugateSweeps::fits(const ImpulseConstraint& c, const ConeBatch& batch) const {
   if (batch.constraint.back() >= 0) return false;
-  for (const int i : batch.constraint) {
-    if (i < 0) break;
-    for (const int tree : island_->constraint(i).tree)
-      if (tree != ImpulseConstraint::no_tree && (tree == c.tree[0] || tree == c.tree[1]))
-        return false;
-  }
-  return true;
+  return std::ranges::none_of(batch.constraint, [&](int i) {
+    return i >= 0 && std::ranges::any_of(island_->constraint(i).tree, [&](int tree) {
+             return tree != ImpulseConstraint::no_tree && (tree == c.tree[0] || tree == c.tree[1]);
+           });
+  });
 }
 
-// The lanes are filled in sequence.
 void ConjugateSweeps::add_to_batch(const ImpulseConstraint& c, int i) {
-  std::size_t at = first_open_;
+  std::size_t at = batches_.size() - std::min(batches_.size(), kOpenBatches);
   while (at < batches_.size() && !fits(c, batches_[at])) ++at;
   if (at == batches_.size()) {
     ConeBatch& batch = batches_.emplace_back();
     batch.constraint.fill(-1);
-    batch.local.W[0] = batch.local.S[0] = batch.local.S[2] = 1;  // of the lanes that stay free
     for (auto& side : batch.first) side.fill(static_cast<int>(problem_->nv()));
-    if (at - first_open_ >= kMaxOpenBatches) ++first_open_;
   }
   ConeBatch& batch = batches_[at];
   const auto lane =
@@ -119,9 +96,9 @@ void ConjugateSweeps::add_to_batch(const ImpulseConstraint& c, int i) {
     copy(problem_->J(c, side), batch.J[side]);
     copy(Y_.data() + c.J[side], batch.Y[side]);
   }
-  const Local& local = local_[i];
-  copy(local.W.data(), batch.local.W), copy(local.inverse.data(), batch.local.inverse);
-  copy(local.S.data(), batch.local.S), copy(local.w.data(), batch.local.w);
+  const LocalProblem<double>& local = local_[i];
+  copy(local.W.data(), batch.local.W), copy(local.S.data(), batch.local.S);
+  copy(local.w.data(), batch.local.w), copy(local.inverse.data(), batch.local.inverse);
   copy(c.b.data(), batch.b), copy(c.p.data(), batch.p);
   batch.mu.set(lane, c.mu), batch.inverse_rho.set(lane, 1 / island_->rho0[i]);
 }
@@ -137,12 +114,22 @@ void ConjugateSweeps::write_impulses() {
 // increase.
 double ConjugateSweeps::sweep() {
   const double beta = last_squared_ > 0 && squared_ <= last_squared_ ? squared_ / last_squared_ : 0;
-  extrapolate(beta);
+  last_squared_ = squared_;
+  island_->for_each_velocity([&](std::size_t k) {
+    const double change = v_[k] - last_v_[k];
+    v_[k] += beta * v_direction_[k];
+    v_direction_[k] = beta > 0 ? beta * v_direction_[k] + change : 0;
+    last_v_[k] = v_[k];
+  });
   auto [squared, largest] = sweep_cones(batches_, beta, v_.data());
   for (const int i : others_) {
     ImpulseConstraint& c = island_->constraint(i);
+    Vec &direction = direction_[i], &change = change_[i];
+    for (int r = 0; r < 3; ++r) {
+      c.p[r] += beta * direction[r];
+      direction[r] = beta > 0 ? beta * direction[r] + change[r] : 0;
+    }
     const Vec p = solve_constraint(c, i);
-    Vec& change = change_[i];
     double here = 0;
     for (int r = 0; r < 3; ++r) change[r] = p[r] - c.p[r], here += change[r] * change[r];
     c.p = p;
@@ -160,40 +147,23 @@ double ConjugateSweeps::sweep() {
   return std::sqrt(largest);
 }
 
-void ConjugateSweeps::extrapolate(double beta) {
-  last_squared_ = squared_;
-  for (const int i : others_) {
-    Vec &direction = direction_[i], &p = island_->constraint(i).p;
-    for (int r = 0; r < 3; ++r) {
-      p[r] += beta * direction[r];
-      direction[r] = beta > 0 ? beta * direction[r] + change_[i][r] : 0;
-    }
-  }
-  island_->for_each_velocity([&](std::size_t k) {
-    const double change = v_[k] - last_v_[k];
-    v_[k] += beta * v_direction_[k];
-    v_direction_[k] = beta > 0 ? beta * v_direction_[k] + change : 0;
-    last_v_[k] = v_[k];
-  });
-}
-
 // Impulse of this constraint at the velocities of the others' impulses.
 Vec ConjugateSweeps::solve_constraint(const ImpulseConstraint& c, int i) {
-  Local& local = local_[i];
+  LocalProblem<double>& local = local_[i];
   Vec u;
   problem_->velocity(c, v_.data(), u);
   for (int r = 0; r < c.rows; ++r) u[r] += c.b[r];
   Vec p = c.p;
   switch (c.law) {
     case ConstraintType::bilateral: {
-      const Vec step = times(local.inverse, u);
-      for (int r = 0; r < c.rows; ++r) p[r] -= step[r];
+      const Vec step = local.stick(u);
+      for (int r = 0; r < c.rows; ++r) p[r] += step[r];
       return p;
     }
     case ConstraintType::unilateral:
-      return {std::max(0.0, p[0] - local.inverse[0] * u[0]), 0, 0};
+      return {std::max(0.0, p[0] - u[0] * local.inverse[0]), 0, 0};
     case ConstraintType::box:
-      return {std::clamp(p[0] - local.inverse[0] * u[0], c.low, c.high), 0, 0};
+      return {std::clamp(p[0] - u[0] * local.inverse[0], c.low, c.high), 0, 0};
     case ConstraintType::compliant: {  // Newton step of each spring
       MultiplierState state;
       state.radius = c.mu * p[0];
@@ -209,17 +179,12 @@ Vec ConjugateSweeps::solve_constraint(const ImpulseConstraint& c, int i) {
   }
   const Vec own = times(local.W, p);
   for (int r = 0; r < 3; ++r) u[r] -= own[r];
-  return c.law == ConstraintType::coulomb_cone ? solve_cone(c.mu, u, local)
-                                               : solve_disc(c, local, u);
-}
-
-// q: velocity without this impulse.
-Vec ConjugateSweeps::solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q) {
+  if (c.law == ConstraintType::coulomb_cone) return solve_cone(c.mu, u, local);
   const double radius = c.radius * std::max(0.0, island_->constraint(c.of).p[0]);
   if (radius == 0) return {};
-  const Vec p = sticking_impulse(local, q);
-  if (p[0] * p[0] + p[1] * p[1] <= radius * radius) return p;
-  const Vec slides = slide(1.0, radius, {q[0], c.rows > 1 ? q[1] : 0}, local);
+  const auto [x, y] = local.stick(u[0], u[1]);
+  if (x * x + y * y <= radius * radius) return {x, y, 0};
+  const Vec slides = slide(1.0, radius, {u[0], u[1]}, 1.0, local);
   return {slides[1], slides[2], 0};
 }
 

@@ -6,9 +6,6 @@
 // phases that follow.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "solver/impulses/cone_batch.h"
 #include "solver/impulses/impulse_island.h"
 
@@ -24,21 +21,17 @@ class ConjugateSweeps {
   void write_impulses();  // p of the constraints
 
  private:
-  using Local = LocalProblem<double>;
   void set_local(const ImpulseConstraint& c, int i);
   bool fits(const ImpulseConstraint& c, const ConeBatch& batch) const;
   void add_to_batch(const ImpulseConstraint& c, int i);
   Vec solve_constraint(const ImpulseConstraint& c, int i);
-  Vec solve_disc(const ImpulseConstraint& c, Local& local, const Vec& q);
-  void extrapolate(double beta);
 
   ImpulseIsland* island_ = nullptr;
   ImpulseProblem* problem_ = nullptr;
   std::vector<ConeBatch> batches_;
-  std::size_t first_open_ = 0;  // of the batches with a free lane
-  std::vector<int> others_;     // constraints that are in no batch
+  std::vector<int> others_;  // constraints that are in no batch
   // By constraint; change_ and direction_ of the others.
-  std::vector<Local> local_;
+  std::vector<LocalProblem<double>> local_;
   std::vector<Vec> change_, direction_;
   std::vector<double> Y_;  // M^-1 J^T, laid out as J
   // By velocity: now, with six zeros at the end in place of the world's; before the sweep; of

@@ -1,9 +1,8 @@
 #include "solver/impulses/impulse_island.h"
 
-#include <algorithm>
 #include <limits>
 
-#include "solver/impulses/block_matrices.h"
+#include "solver/linear_algebra/block_matrices.h"
 #include "solver/linear_algebra/second_order_cone.h"
 
 namespace twinarm {

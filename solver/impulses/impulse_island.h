@@ -4,11 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <vector>
 
 #include "solver/impulses/impulse_law.h"
-#include "solver/impulses/impulse_problem.h"
 
 namespace twinarm {
 
@@ -18,10 +15,8 @@ struct ImpulseAccuracy {
   double tolerance = 1e-10;  // target residual of the iterations [m/s]
   double budget = 1e10;      // floating-point operations for one island, about
   void limit_to_default() {
-    const ImpulseAccuracy at_most;
-    good_guess = std::min(good_guess, at_most.good_guess);
-    accepted = std::min(accepted, at_most.accepted);
-    tolerance = std::min(tolerance, at_most.tolerance);
+    const double part = std::min(1.0, ImpulseAccuracy{}.accepted / accepted);
+    good_guess *= part, accepted *= part, tolerance *= part;
   }
   bool is_to_rounding() const { return good_guess < tolerance; }  // event-driven steps
 };

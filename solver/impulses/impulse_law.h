@@ -9,8 +9,6 @@
 // the gradient of a convex function of u. At a fixed point in l and s, p satisfies the law.
 #pragma once
 
-#include <array>
-
 #include "solver/impulses/impulse_problem.h"
 #include "solver/linear_algebra/nan_max.h"
 

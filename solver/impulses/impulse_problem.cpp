@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "solver/impulses/block_matrices.h"
+#include "solver/linear_algebra/block_matrices.h"
 
 namespace twinarm {
 

@@ -1,6 +1,5 @@
 #include "solver/impulses/impulse_solver.h"
 
-#include <algorithm>
 #include <atomic>
 #include <future>
 #include <numeric>

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "solver/impulses/impulse_island.h"
 #include "solver/support/state_archive.h"

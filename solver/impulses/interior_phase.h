@@ -1,10 +1,6 @@
 // Interior-point methods on one island: middle phase of island_solver.h.
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "solver/impulses/impulse_island.h"
 #include "solver/impulses/newton_matrix.h"
 #include "solver/linear_algebra/second_order_cone.h"
 

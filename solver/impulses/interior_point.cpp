@@ -11,7 +11,6 @@
 // 10 to 30 iterations from any start, also with redundant contacts; the impulses end in the
 // interior of the solution set, a good initial guess of the next step. Constraints that are not
 // contacts use impulse_law.h, with a multiplier update per iteration.
-#include <algorithm>
 #include <limits>
 
 #include "solver/impulses/interior_phase.h"

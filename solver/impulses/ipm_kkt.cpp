@@ -5,7 +5,6 @@
 //   D = e (1, l + a h)^T / C + diag(0, S),    e = (1, a h)   (not symmetric).
 // Constraints without a cone (locks, springs) use impulse_law.h with a multiplier update per
 // iteration.
-#include <algorithm>
 #include <cmath>
 
 #include "solver/impulses/interior_phase.h"

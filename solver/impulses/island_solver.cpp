@@ -1,7 +1,5 @@
 #include "solver/impulses/island_solver.h"
 
-#include <algorithm>
-#include <array>
 #include <limits>
 
 namespace twinarm {
@@ -130,7 +128,6 @@ void IslandSolver::start_large(bool interior_follows, ImpulseReport& report) {
     // An island that hardly changes: after a good solution its next guesses are accepted.
     if (!suits_sweeps() && guess_residual_ <= kAlmostAtRest * island_.wanted.accepted &&
         island_.has_budget(kQuickNewton * matrix_.work())) {
-      island_.wanted.tolerance *= 0.01;
       newton_.solve(kLargeNewton, kFirstRho, report);
       if (is_solved()) return;
       island_.apply_impulses(guess_p_);

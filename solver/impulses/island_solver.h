@@ -10,8 +10,6 @@
 // is counted, not timed: deterministic.
 #pragma once
 
-#include <vector>
-
 #include "solver/impulses/conjugate_sweeps.h"
 #include "solver/impulses/interior_phase.h"
 #include "solver/impulses/newton_phase.h"

@@ -1,9 +1,8 @@
 #include "solver/impulses/newton_matrix.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "solver/impulses/block_matrices.h"
+#include "solver/linear_algebra/block_matrices.h"
 
 namespace twinarm {
 namespace {

@@ -2,8 +2,6 @@
 // Cuthill-McKee order of the trees. M makes it positive definite for redundant contacts too.
 #pragma once
 
-#include <vector>
-
 #include "solver/impulses/impulse_island.h"
 #include "solver/linear_algebra/envelope_lu.h"
 

@@ -1,9 +1,6 @@
 #include "solver/impulses/newton_phase.h"
 
-#include <algorithm>
 #include <limits>
-
-#include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm {
 namespace {

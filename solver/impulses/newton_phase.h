@@ -11,9 +11,6 @@
 // differentiate the shift, while they converge.
 #pragma once
 
-#include <vector>
-
-#include "solver/impulses/impulse_island.h"
 #include "solver/impulses/newton_matrix.h"
 
 namespace twinarm {

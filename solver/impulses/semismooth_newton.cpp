@@ -1,5 +1,4 @@
 // Inner problem of newton_phase.h: semismooth Newton method.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "solver/forces/joint_friction.h"
-#include "solver/impulses/block_matrices.h"
 #include "solver/impulses/impulse_solver.h"
+#include "solver/linear_algebra/block_matrices.h"
 #include "solver/linear_algebra/dense_spd.h"
 #include "solver/linear_algebra/envelope_lu.h"
 

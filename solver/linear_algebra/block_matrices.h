@@ -1,4 +1,4 @@
-// Products with the blocks of impulse_problem.h. Compile-time sizes (3 rows of a contact, 6
+// Products with small dense blocks, row by row. Compile-time sizes (3 rows of a contact, 6
 // velocities of a free body) let the compiler unroll loops, which halves the time. Other shapes use
 // run-time sizes with the same order of summation.
 #pragma once
