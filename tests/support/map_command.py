@@ -46,7 +46,8 @@ class MapCommand(ProgramTest):
         planes, number = {}, len(list(self.folder.iterdir()))  # a work file of each way holds all measures
         for measure in MEASURES:
             planes[measure], alone = (self.map(scene, *options, "--measure", measure, *way,
-                                               name=f"{number}{way}", env=GENERIC)["values"] for way in ([], ["--no-simd"]))
+                                               name=f"{number}{way}", env=GENERIC)["values"]
+                                      for way in ([], ["--no-simd"]))
             for row, other in zip(planes[measure], alone):
                 for value, wanted in zip(row, other):
                     self.assertEqual(value is None, wanted is None, measure)
