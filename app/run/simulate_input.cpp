@@ -166,8 +166,8 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     const auto mode = choose("--contact", options.contact, kContactModes, "possible", faults);
     if (mode && description) description->contact = static_cast<ContactMode>(*mode);
   }
-  if (options.budget && description && description->budget == 0) {
-    description->budget = *options.budget;
+  if (options.budget && description) {
+    if (description->budget == 0) description->budget = *options.budget;
     description->accuracy = description->accuracy.value_or(kRealTimeAccuracy);
   }
   const RunPlan plan =

@@ -25,8 +25,8 @@ struct RunSettings {
   std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
   std::string integrator;                // as in solver/integration/integrator.h; may be empty
   std::string contact;                   // "rigid" ..; may be empty
-  // Of the contact solver, unless the scene sets one [1/s]; then with an accuracy of 1e-4 m/s,
-  // unless the scene sets that.
+  // Of the contact solver [1/s], and with it an accuracy of 1e-4 m/s; each unless the scene sets
+  // it.
   std::optional<double> budget;
 };
 

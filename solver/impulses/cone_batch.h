@@ -1,6 +1,7 @@
-// Local problems of conjugate_sweeps.h: one constraint with the others held, q its velocity without
-// its impulse; of double, or of a Batch with a constraint in each lane. Contacts with Coulomb
-// friction between free bodies are solved in batches.
+// Local problems of conjugate_sweeps.h: one constraint with the others held, its impulse p [N s]
+// and q [m/s], its velocity without p, in the axes of the constraint (normal, tangent, tangent); of
+// double, or of a Batch with a constraint in each lane. Contacts with Coulomb friction between free
+// bodies are solved in batches. No memory is allocated, bits do not depend on the instruction set.
 #pragma once
 
 #include <array>
@@ -71,6 +72,7 @@ std::array<T, 3> slide(const T& mu, const T& a, const std::array<T, 2>& g, T act
   return {p_n, ratio * t[0], ratio * t[1]};
 }
 
+// Impulse of a contact with Coulomb friction: open, sticking or sliding.
 template <class T>
 std::array<T, 3> solve_cone(const T& mu, const std::array<T, 3>& q, LocalProblem<T>& local) {
   const std::array<T, 3> sticks = local.stick(q);

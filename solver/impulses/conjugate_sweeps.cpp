@@ -17,9 +17,9 @@ void ConjugateSweeps::start(ImpulseIsland& island) {
   ImpulseProblem& problem = *(problem_ = island.problem);
   const std::size_t count = problem.constraints().size(), nv = problem.nv();
   local_.resize(count), change_.resize(count), direction_.resize(count);
-  last_v_.resize(nv), v_direction_.resize(nv), v_.assign(nv + 6, 0.0);
+  last_v_.resize(nv), v_direction_.resize(nv), v_.resize(nv + 6);
   Y_.resize(problem.jacobian_size());
-  batches_.clear(), others_.clear();
+  batches_.clear(), others_.clear(), std::fill_n(v_.data() + nv, 6, 0.0);
   for (const int i : island.constraints()) {
     const ImpulseConstraint& c = island.constraint(i);
     bool batched =

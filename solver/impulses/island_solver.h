@@ -2,7 +2,8 @@
 //   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
 //   start        of small islands from a guess Newton steps (newton_phase.h); else sweeps
 //                (conjugate_sweeps.h), unless there are loops or a face rests on another, then
-//                Newton steps
+//                Newton steps. At coarse accuracy sweeps, after Newton steps where faces rest on
+//                each other and the guess is nearly accepted
 //   interior     interior_point.cpp as start of further Newton steps; then central_path.cpp, path
 //                following from several starts
 //   end          small islands are refined to rounding by Newton steps

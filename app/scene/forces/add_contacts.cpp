@@ -10,8 +10,6 @@ namespace twinarm {
 
 namespace {
 
-constexpr double kExact = 5e-9;  // accuracy of impulses by default [m/s]
-
 // Shapes of all geometries. Files of meshes are read one after the other, since a process with
 // threads should not fork; hulls are made on all processors.
 std::vector<Shape> collision_shapes(const SceneModel& scene) {
@@ -101,7 +99,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     loops.push_back({c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset});
   if (!loops.empty()) simulation.set_loops(std::move(loops));
   const bool may_touch = scene.may_touch();
-  simulation.set_impulse_effort(scene.description.accuracy.value_or(kExact),
+  simulation.set_impulse_effort(scene.description.accuracy.value_or(ImpulseAccuracy{}.accepted),
                                 scene.description.budget);
   simulation.set_sleep(scene.description.sleep);
   if (may_touch) {

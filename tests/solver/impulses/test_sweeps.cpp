@@ -49,14 +49,15 @@ ImpulseProblem pyramid(unsigned seed, int levels) {
 
 }  // namespace
 
-TEST_CASE("three sweeps solve a constraint alone, of every type") {
+// The first takes the direction of sliding from a multiplier that is good to 1e-6.
+TEST_CASE("two sweeps solve a constraint alone, of every type") {
   for (unsigned seed = 0; seed < 400; ++seed)
     for (const std::size_t kind : {0u, 2u, 3u, 4u}) {
       CAPTURE(seed);
       CAPTURE(kind);
       ImpulseProblem problem = random_problem(seed, 2, 5, 10);
       problem.constraints() = {problem.constraints()[kind]};
-      sweep(problem, 3);
+      sweep(problem, 2);
       CHECK(breach(problem, problem.constraints()[0]) < 1e-9);
     }
 }
@@ -128,7 +129,7 @@ TEST_CASE("up to eight contacts are solved exactly, whatever the accuracy") {
 }
 
 // Shaken once, with gravity in steps of 2 ms. An error of the impulses is an acceleration: a
-// solution that is only just accepted must be mended two steps later.
+// solution that is only just accepted must be solved again two steps later.
 TEST_CASE("a pyramid at rest is seldom solved again at an accuracy of 1e-4 m/s") {
   ImpulseProblem problem = pyramid(1, 6);
   Random random(1);
