@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <stdexcept>
@@ -28,14 +29,16 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr const char* kUsage =
-    "usage: friction_check PROBLEM\n"
+    "usage: friction_check PROBLEM [OPERATIONS]\n"
     "Solves one frictional contact problem and prints its error as JSON.\n"
     "PROBLEM is a text file of numbers: the number of contacts n; n friction coefficients; 3 n\n"
     "numbers q; then the lower triangle of the symmetric 3 n x 3 n matrix W, as ROW COLUMN VALUE\n"
     "from 0. Rows are (normal, tangent, tangent) of each contact.\n"
     "contacts: n; error: of the natural map, over |q|; law: residual in the solver's own measure\n"
     "[m/s]; converged; ms: shortest time of up to ten solutions; newton, interior, path:\n"
-    "iterations of the solver's methods.\n";
+    "iterations of the solver's methods. OPERATIONS: budget of the solver.\n";
+
+constexpr double kExact = 1e12;  // budget: however long it takes
 
 struct FrictionProblem {
   VectorXd mu, q;
@@ -167,17 +170,17 @@ void set_bias(ImpulseProblem& impulses, const VectorXd& q) {
 }
 
 // Returns r.
-VectorXd solve_once(const FrictionProblem& problem, ImpulseProblem& impulses,
+VectorXd solve_once(const FrictionProblem& problem, ImpulseProblem& impulses, double budget,
                     ImpulseReport& report) {
-  constexpr int kMaxCorrections = 3;
+  const int max_corrections = budget < kExact ? 0 : 3;
   constexpr double kGoodError = 1e-9;
-  ImpulseSolver solver;           // without what an earlier solution has left
-  solver.accuracy.budget = 1e12;  // exact, however long it takes
+  ImpulseSolver solver;  // without what an earlier solution has left
+  solver.accuracy.budget = budget;
   for (ImpulseConstraint& c : impulses.constraints()) c.p = {}, c.u = {};
   set_bias(impulses, problem.q);
   report = solver.solve(impulses);
   VectorXd r = impulses_of(impulses);
-  for (int k = 0; k < kMaxCorrections && natural_map(problem, r) > kGoodError; ++k) {
+  for (int k = 0; k < max_corrections && natural_map(problem, r) > kGoodError; ++k) {
     VectorXd Wr(r.size());  // by the factors
     for (std::size_t c = 0; c < impulses.constraints().size(); ++c) {
       const ImpulseConstraint& law = impulses.constraints()[c];
@@ -191,7 +194,7 @@ VectorXd solve_once(const FrictionProblem& problem, ImpulseProblem& impulses,
   return r;
 }
 
-void solve(const FrictionProblem& problem) {
+void solve(const FrictionProblem& problem, double budget) {
   constexpr int kMaxRepeats = 10;
   constexpr double kMaxSeconds = 0.5;
   ImpulseProblem impulses = impulse_problem_of(problem);
@@ -200,7 +203,7 @@ void solve(const FrictionProblem& problem) {
   double shortest = HUGE_VAL, spent = 0;
   for (int n = 0; n < kMaxRepeats && spent < kMaxSeconds; ++n) {
     const auto start = std::chrono::steady_clock::now();
-    r = solve_once(problem, impulses, report);
+    r = solve_once(problem, impulses, budget, report);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     spent += time.count();
     shortest = std::min(shortest, time.count());
@@ -217,14 +220,15 @@ void solve(const FrictionProblem& problem) {
 }  // namespace twinarm
 
 int main(int count, char** arguments) {
-  const std::string file = count == 2 ? arguments[1] : "";
+  const std::string file = count == 2 || count == 3 ? arguments[1] : "";
+  const double budget = count == 3 ? std::atof(arguments[2]) : twinarm::kExact;
   if (file == "--help") return std::fputs(twinarm::kUsage, stdout) < 0;
-  if (file.empty()) {
+  if (file.empty() || !(budget > 0)) {
     std::fputs(twinarm::kUsage, stderr);
     return 2;
   }
   try {
-    twinarm::solve(twinarm::read_problem(file));
+    twinarm::solve(twinarm::read_problem(file), budget);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "friction_check: %s: %s\n", file.c_str(), error.what());
     return 2;

@@ -28,7 +28,7 @@ from waiting import TIMEOUT
 SCRIPT = ROOT / "scripts/generate/pictures"
 PICTURES = ROOT / "docs/pictures"
 LARGE = {"arm_and_twin", "side_by_side", "e3_e4", "map_stable"}  # studio quality; recordings; the study; 4096 runs
-BY_HAND = {"heaps", "lab", "map_throughput", "layers", "work_precision"}
+BY_HAND = {"friction", "heaps", "lab", "map_throughput", "layers", "work_precision"}
 # Of the squares. pngquant, which computes in floats, reduces the same picture to 256 colours that differ in up to
 # 0.0035 of the squares between processors; without one overlay it is 0.02 or more.
 MAX_VISIBLE = 0.005

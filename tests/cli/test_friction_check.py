@@ -41,6 +41,18 @@ class FrictionCheck(ProgramTest):
         self.assertEqual((found["contacts"], found["converged"]), (5, True))
         self.assertLess(found["error"], 1e-8)
 
+    def test_a_small_budget_ends_with_a_larger_error(self):
+        # Twelve blocks of 1 kg in a tower: each contact moves the block above it and that below.
+        lines = [f"{3 * a + r} {3 * b + r} {2 if a == b and a > 0 else 1 if a == b else -1}"
+                 for a in range(12) for b in (a - 1, a) if b >= 0 for r in range(3)]
+        text = f"12\n{'0.5 ' * 12}\n{'-1 0.3 0 ' + '0 0 0 ' * 11}\n" + "\n".join(lines)
+        exact = self.answer(text)
+        early = json.loads(run(self.write("problem.txt", text), "2e4").stdout)
+        self.assertEqual((exact["converged"], early["converged"]), (True, False))
+        self.assertGreater(early["error"], 100 * exact["error"])
+        self.assertLess(early["error"], 1)
+        self.assertEqual(run(self.write("problem.txt", text), "none").returncode, 2)
+
     def test_bad_input_is_refused_with_the_place_and_code_2(self):
         good = f"1\n0.5\n-1 0 0\n{UNIT}"
         self.answer(good)
