@@ -49,11 +49,11 @@ double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
 
 EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                              SceneCouplings* couplings, Integrator integrator,
-                             bool others_want_inner)
+                             bool others_want_inner, PosedStates& poses)
     : input_(input),
       wrenches_(wrenches),
       couplings_(couplings),
-      k_(input.model),
+      poses_(poses),
       w_(input.model),
       start_(input.state.x),
       now_(start_),
@@ -110,8 +110,7 @@ std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) con
     if (!actuator.is_exact)
       powers.push_back(
           dot(input_.state.tau, *actuator.joint, from_solver(*actuator.joint, x, x.qd)));
-  if (!wrenches_.empty() || couplings_) forward_kinematics(input_.model, x, k_);
-  for (const GivenWrench& wrench : wrenches_) powers.push_back(wrench.power(k_));
+  for (const GivenWrench& wrench : wrenches_) powers.push_back(wrench.power(poses_.at(x)));
   const Model<double>& model = input_.model;
   for (const Friction& f : damped_) {
     double sum = 0;
@@ -126,7 +125,7 @@ std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) con
   }
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    const CouplingEnds ends = couplings_->ends(c, x, k_, side);
+    const CouplingEnds ends = couplings_->ends(c, x, poses_.at(x), side);
     const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
     const Vector3 spring = spec.spring.k * ends.offset;
     const Vector3 damper = spec.spring.b * (damped - ends.velocity);
@@ -157,10 +156,8 @@ void EnergyBalance::add_implicit(double h, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     if (couplings_->spec(c).third_row() == ThirdRow::none) continue;
     const double m_star = couplings_->m_star(c);
-    forward_kinematics(input_.model, now_, k_);
-    const CouplingEnds before = couplings_->ends(c, now_, k_);
-    forward_kinematics(input_.model, end, k_);
-    const CouplingEnds after = couplings_->ends(c, end, k_);
+    const CouplingEnds before = couplings_->ends(c, now_, poses_.at(now_));
+    const CouplingEnds after = couplings_->ends(c, end, poses_.at(end), Side::before);
     const Vector3 mean = 0.5 * (before.velocity + after.velocity);
     implicit_[c] +=
         (h * couplings_->force(c) - m_star * (after.velocity - before.velocity)).dot(mean);
@@ -178,8 +175,8 @@ void EnergyBalance::serialize(StateArchive& memory) {
 }
 
 double EnergyBalance::elastic_energy(std::size_t c, const State<double>& x) const {
-  forward_kinematics(input_.model, x, k_);
-  return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();
+  const Vector3 offset = couplings_->ends(c, x, poses_.at(x)).offset;
+  return 0.5 * couplings_->spec(c).spring.k * offset.squaredNorm();
 }
 
 std::vector<EnergyRow> EnergyBalance::input_work() const {

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accounting/posed_states.h"
 #include "app/robot/robot_input.h"
 #include "app/scene/forces/given_forces.h"
 #include "app/scene/forces/reported_forces.h"
@@ -35,7 +36,8 @@ class EnergyBalance {
  public:
   // All must outlive it; `couplings` may be null.
   EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                SceneCouplings* couplings, Integrator integrator, bool others_want_inner);
+                SceneCouplings* couplings, Integrator integrator, bool others_want_inner,
+                PosedStates& poses);
 
   // Inner quadrature nodes within a step, in (0, 1).
   std::span<const double> inner_nodes() const { return nodes_; }
@@ -77,7 +79,7 @@ class EnergyBalance {
   std::vector<EnergyRow> integrals_;
   std::vector<double> implicit_;  // h force - m* dv over the mean velocity, by coupling
   std::vector<double> nodes_, weights_;
-  mutable Kinematics k_;
+  PosedStates& poses_;
   mutable Workspace<double> w_;
   State<double> start_, now_;
   Energies at_start_;

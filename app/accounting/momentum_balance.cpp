@@ -4,7 +4,8 @@ namespace twinarm {
 
 MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                                  SceneCouplings* couplings, Integrator integrator,
-                                 bool locates_events, const Simulation& simulation)
+                                 bool locates_events, const Simulation& simulation,
+                                 PosedStates& poses)
     : input_(input),
       wrenches_(wrenches),
       couplings_(couplings),
@@ -21,8 +22,7 @@ MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<Give
       sleeps_(simulation.constraints().sleep().is_on()),
       start_(simulation.state()),
       now_(start_),
-      k_(input.model),
-      k_end_(input.model),
+      poses_(poses),
       w_(input.model) {
   at_start_ = contents(moved_, start_);
   find_trees();
@@ -71,7 +71,7 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
     add_given(h, at);
     add_coupling_impulses(h, at, end);
     if (!after.has_constrained_steps()) add_loops(h, after.mechanism(), now_.qd, h);
-    add_trees(h, after.mechanism());
+    add_trees(h, after.mechanism(), poses_.at(at));
     add_impacts(after);
   } else if (rule_ == Rule::located) {
     for (const State<double>* x : {static_cast<const State<double>*>(&now_), &end}) {
@@ -85,7 +85,7 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
       if (trees_.empty() && loop_count_ == 0) return;
       evaluate_at(after, x, copy_);
       add_loops(weight * h, *copy_, x.qd, 0);
-      add_trees(weight * h, *copy_);
+      add_trees(weight * h, *copy_, poses_.at(x));
     };
     add(now_, weights.front(), Side::after);
     for (std::size_t s = 0; s < inner.size(); ++s) add(inner[s], weights[s + 1], Side::after);
@@ -112,14 +112,13 @@ EnergyMomentum MomentumBalance::contents(const std::vector<char>& of,
   return energy_and_momentum_of(input_.model, of, x, w_);
 }
 
-// Leaves k_ at x.
 void MomentumBalance::add_given(double part, const State<double>& x) {
   const Model<double>& model = input_.model;
-  forward_kinematics(model, x, k_);
+  const Kinematics& k = poses_.at(x);
   const Vector3 g = to_eigen(model.gravity);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (!moved_[i]) continue;
-    const Vector3 first_moment = model.I[i].m * k_.X_WL[i].p + k_.R_WB[i] * to_eigen(model.I[i].h);
+    const Vector3 first_moment = model.I[i].m * k.X_WL[i].p + k.R_WB[i] * to_eigen(model.I[i].h);
     sums_[0].impulse += part * model.I[i].m * g;
     sums_[0].moment += part * first_moment.cross(g);
     if (rule_ != Rule::located) continue;
@@ -130,7 +129,7 @@ void MomentumBalance::add_given(double part, const State<double>& x) {
       }
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const Wrench now = wrenches_[i].now(k_);
+    const Wrench now = wrenches_[i].now(k);
     sums_[wrench(i)].add_wrench(part, now.point, now.force, now.torque);
   }
 }
@@ -150,20 +149,20 @@ void add_coupling_force(double part, const SceneCoupling& spec, const Vector3& f
 
 }  // namespace
 
-// k_ is at x.
 void MomentumBalance::add_couplings(double part, const State<double>& x,
                                     SceneCouplings::Side side) {
+  const Kinematics& k = poses_.at(x);
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
       // held force, or not a spring-damper
-      add_coupling_force(part, spec, couplings_->force(c), k_, sums_[coupling(c)]);
+      add_coupling_force(part, spec, couplings_->force(c), k, sums_[coupling(c)]);
       continue;
     }
-    const CouplingEnds ends = couplings_->ends(c, x, k_, side);
+    const CouplingEnds ends = couplings_->ends(c, x, k, side);
     const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
     add_coupling_force(part, spec,
-                       spec.spring.k * ends.offset + spec.spring.b * (damped - ends.velocity), k_,
+                       spec.spring.k * ends.offset + spec.spring.b * (damped - ends.velocity), k,
                        sums_[coupling(c)]);
   }
 }
@@ -171,17 +170,17 @@ void MomentumBalance::add_couplings(double part, const State<double>& x,
 // Impulse of the step: force at its start times h, minus m* times the change of link velocity.
 void MomentumBalance::add_coupling_impulses(double h, const State<double>& at,
                                             const State<double>& end) {
+  const Kinematics& k = poses_.at(at);
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     Vector3 impulse = h * couplings_->force(c);
     if (const double m_star = couplings_->m_star(c); m_star != 0) {
       State<double> mixed = at;  // position at the start, velocity at the end: J dqd
       mixed.qd = end.qd;
-      forward_kinematics(input_.model, mixed, k_end_);
-      impulse -= m_star * (couplings_->ends(c, mixed, k_end_).velocity -
-                           couplings_->ends(c, at, k_).velocity);
+      impulse -= m_star * (couplings_->ends(c, mixed, poses_.at(mixed)).velocity -
+                           couplings_->ends(c, at, k).velocity);
     }
-    add_coupling_force(1, spec, impulse, k_, sums_[coupling(c)]);
+    add_coupling_force(1, spec, impulse, k, sums_[coupling(c)]);
   }
 }
 
@@ -207,16 +206,16 @@ void MomentumBalance::add_loops(double part, const IntegrationState& at,
   }
 }
 
-// k_ has the poses of `at`.
-void MomentumBalance::add_trees(double part, const IntegrationState& at) {
+// k: of the poses of `at`.
+void MomentumBalance::add_trees(double part, const IntegrationState& at, const Kinematics& k) {
   const Model<double>& model = input_.model;
   const Workspace<double>& w = at.w;
   for (std::size_t t = 0; t < trees_.size(); ++t)
     for (std::size_t i = 1; i < model.parent.size(); ++i) {
       if (!trees_[t].bodies[i]) continue;
       const Force<double> f = model.I[i] * w.a[i] + crf(w.v[i], model.I[i] * w.v[i]);
-      sums_[tree(t)].add_wrench(part, k_.X_WL[i].p, k_.R_WB[i] * to_eigen(f.f),
-                                k_.R_WB[i] * to_eigen(f.n));
+      sums_[tree(t)].add_wrench(part, k.X_WL[i].p, k.R_WB[i] * to_eigen(f.f),
+                                k.R_WB[i] * to_eigen(f.n));
     }
 }
 

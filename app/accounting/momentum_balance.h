@@ -32,7 +32,7 @@ class MomentumBalance {
   // All must outlive it; `couplings` may be null. `simulation` accounts for constraint work.
   MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                   SceneCouplings* couplings, Integrator integrator, bool locates_events,
-                  const Simulation& simulation);
+                  const Simulation& simulation, PosedStates& poses);
 
   bool wants_inner() const { return rule_ == Rule::integral; }  // states at inner nodes
   // The step of h from the state of the last call (or the start) to `after`; weights of all nodes.
@@ -68,7 +68,7 @@ class MomentumBalance {
   void add_couplings(double part, const State<double>& x, SceneCouplings::Side side);
   void add_coupling_impulses(double h, const State<double>& at, const State<double>& end);
   void add_loops(double part, const IntegrationState& at, const std::vector<double>& qd, double h);
-  void add_trees(double part, const IntegrationState& at);
+  void add_trees(double part, const IntegrationState& at, const Kinematics& k);
   void add_impacts(const Simulation& after);
   EnergyMomentum contents(const std::vector<char>& of, const State<double>& x) const;
   void subtract_from_trees(const EnergyMomentum& e, int body, double sign,
@@ -90,7 +90,7 @@ class MomentumBalance {
   EnergyMomentum sleep_;
   State<double> start_, now_;
   EnergyMomentum at_start_;
-  Kinematics k_, k_end_;
+  PosedStates& poses_;
   std::optional<IntegrationState> copy_;
   mutable Workspace<double> w_;
 };

@@ -44,7 +44,8 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
            {.enable_constraint_work = true, .interrupted = watch.interrupted}),
       given_(input_),
       limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
-              result_.warnings) {
+              result_.warnings),
+      poses_(input_.model) {
   add_forces(simulated);
   sim_.set_integrator(plan.integrator, plan.tolerance);
   if (simulated.scene) {
@@ -53,10 +54,10 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
   }
   warn(drift_warning(sim_, plan));
   momentum_.emplace(input_, given_.wrenches(), simulated.couplings.get(), plan.integrator,
-                    plan.locates_events, sim_);
+                    plan.locates_events, sim_, poses_);
   energy_balance_.emplace(input_, given_.wrenches(), simulated.couplings.get(),
                           plan.locates_events ? Integrator::dopri5 : plan.integrator,
-                          momentum_->wants_inner());
+                          momentum_->wants_inner(), poses_);
   bound_ = plan.energy_bound > 0 ? plan.energy_bound
                                  : default_energy_bound(input_.model, input_.state.x, false);
   alarm_.emplace(weight_of(input_.model));

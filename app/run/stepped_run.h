@@ -72,6 +72,7 @@ class SteppedRun {
   Simulation sim_;
   GivenForces given_;
   LimitWatch limits_;
+  PosedStates poses_;
   std::optional<EnergyBalance> energy_balance_;
   std::optional<MomentumBalance> momentum_;
   std::optional<EnergyAlarm> alarm_;

@@ -75,8 +75,17 @@ void TargetRobot::begin_step(double t, double h) {
 const TargetSample& TargetRobot::at(double t) {
   if (t == start_.x.t) return start_;
   if (t == end_.x.t) return end_;
-  if (t != middle_.x.t) set(middle_, t, 0.5 * (start_.x.t + end_.x.t));
+  return at(t, 0.5 * (start_.x.t + end_.x.t));
+}
+
+const TargetSample& TargetRobot::at(double t, double toward) {
+  if (t != middle_.x.t) set(middle_, t, toward);
   return middle_;
+}
+
+void TargetRobot::invalidate() {
+  started_ = false;
+  middle_.x.t = std::numeric_limits<double>::quiet_NaN();
 }
 
 bool TargetRobot::update(TargetSample& sample, double t, double toward) const {

@@ -44,11 +44,13 @@ class TargetRobot {
   // Samples the motion for the step [t, t + h]; a repeated call costs nothing.
   void begin_step(double t, double h);
   // Discards the samples, after a change of the motion.
-  void invalidate() { started_ = false; }
+  void invalidate();
   const TargetSample& start() const { return start_; }
   const TargetSample& end() const { return end_; }
   // At a stage within the step, with one-sided velocities.
   const TargetSample& at(double t);
+  // At any t, with velocities on the side of `toward`; a repeated call for t costs nothing.
+  const TargetSample& at(double t, double toward);
 
  private:
   void set(TargetSample& sample, double t, double toward) const {

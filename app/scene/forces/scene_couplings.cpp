@@ -55,13 +55,16 @@ struct SceneCouplings::Target {
       : motion(std::move(given)),
         kvr(scene.model, *motion, {}, spec.driven,
             spec.absolute_damper ? TargetRates::none : TargetRates::from_operator),
-        shown(scene.model, *motion, {}, spec.driven) {
+        shown_after(scene.model, *motion, {}, spec.driven),
+        shown_before(shown_after) {
     kvr.set_pose(spec.rest);
-    shown.set_pose(spec.rest);
+    shown_after.set_pose(spec.rest);
+    shown_before.set_pose(spec.rest);
   }
 
   std::unique_ptr<OperatorMotion> motion;
-  TargetRobot kvr, shown;
+  TargetRobot kvr;
+  TargetRobot shown_after, shown_before;  // by side
 };
 
 struct SceneCouplings::Active {
@@ -126,7 +129,8 @@ ForceSource* SceneCouplings::source(std::size_t c) {
 void SceneCouplings::forget_operator_motions() {
   for (const std::shared_ptr<Active>& active : couplings_) {
     active->target->kvr.invalidate();
-    active->target->shown.invalidate();
+    active->target->shown_after.invalidate();
+    active->target->shown_before.invalidate();
   }
 }
 const OperatorMotion& SceneCouplings::motion(std::size_t c) const {
@@ -138,9 +142,10 @@ const Coupling& SceneCouplings::coupling(std::size_t c) const {
 }
 
 const TargetSample& SceneCouplings::target(std::size_t c, double t, Side side) {
-  TargetRobot& shown = couplings_[c]->target->shown;
-  shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // on that side of a corner
-  return shown.start();
+  constexpr double part = 1e-6;  // on that side of a corner [s]
+  Target& target = *couplings_[c]->target;
+  return side == Side::after ? target.shown_after.at(t, t + part)
+                             : target.shown_before.at(t, t - part);
 }
 
 CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const Kinematics& k,
