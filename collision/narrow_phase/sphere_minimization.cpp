@@ -42,7 +42,8 @@ Local at(const SupportSum& f, const Vector3& n) {
 
 // -|H|^-1 g for a symmetric 2 x 2 Hessian: a descent direction also where f is not convex.
 Eigen::Vector2d downhill(double h00, double h01, double h11, const Eigen::Vector2d& g) {
-  const double mean = 0.5 * (h00 + h11), half = 0.5 * (h00 - h11), r = std::hypot(half, h01);
+  const double mean = 0.5 * (h00 + h11), half = 0.5 * (h00 - h11);
+  const double r = std::sqrt(half * half + h01 * h01);
   const double scale = 1e-12 * (std::abs(mean) + r) + 1e-300;
   const double l0 = std::max(std::abs(mean + r), scale), l1 = std::max(std::abs(mean - r), scale);
   Eigen::Vector2d e0(1, 0);
