@@ -129,7 +129,7 @@ export class LabTimeBar implements Panel, Clock {
     const text = speed === 1 ? 'real time' : `${speedText(speed)}× ${speed > 1 ? 'fast' : 'slow'}`;
     if (Math.abs(pace - 1) <= REAL_TIME) return [text];
     const title = 'achieved speed relative to the speed that is set: the computer is too slow';
-    const badge = element('b.pace', { title }, `${(100 * pace).toFixed(0)} % of ${text}`);
+    const badge = element('b.pace', { title }, `${(100 * pace).toFixed(0)} % speed`);
     return [badge];
   }
 }
