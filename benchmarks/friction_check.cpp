@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <stdexcept>
@@ -19,6 +18,7 @@
 #include <Eigen/Dense>
 
 #include "solver/impulses/impulse_solver.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -221,7 +221,8 @@ void solve(const FrictionProblem& problem, double budget) {
 
 int main(int count, char** arguments) {
   const std::string file = count == 2 || count == 3 ? arguments[1] : "";
-  const double budget = count == 3 ? std::atof(arguments[2]) : twinarm::kExact;
+  const double budget =
+      count == 3 ? twinarm::parse_number(arguments[2]).value_or(0) : twinarm::kExact;
   if (file == "--help") return std::fputs(twinarm::kUsage, stdout) < 0;
   if (file.empty() || !(budget > 0)) {
     std::fputs(twinarm::kUsage, stderr);

@@ -92,6 +92,27 @@ class EnergyBalances(RecordingCommand):
                 self.assertLess(fine[key], max(0.7 * coarse[key] / 2 ** (order - 1), 1e-11),
                                 f"{name} {integrator} {key} {coarse[key]}")
 
+    def test_gravity_and_an_implicit_coupling_give_a_free_body_all_its_momentum(self):
+        """The coupling's impulse needs the velocity at the end of the step, at the poses of its start."""
+        self.write("ball.urdf", robot(link("ball", 2, (0, 0, 0), (0.1, 0, 0, 0.1, 0, 0.1))))
+        scene = self.write("pulled.toml", '''step = 0.01
+[[robot]]
+name = "robot"
+model = "ball.urdf"
+base = "floating"
+linear_velocity = [1, 0, 0]
+[[coupling]]
+name = "pull"
+type = "linear"
+link = "ball"
+stiffness = 100
+damping = 5
+''')
+        momenta = self.run_scene(scene, "--duration", 0.5)[0]["momentum"]
+        for key in ("linear", "angular"):
+            self.assertGreater(size(momenta["coupling/pull"][key]), 0.1, key)
+            self.assertLess(size(momenta["numerical"][key]), 1e-12, key)
+
     def test_the_work_of_a_prescribed_body_is_in_the_row_of_the_constraint(self):
         """A body hangs by a ball joint on a body with prescribed rotation: its energy changes by that row."""
         scene = self.write("driven.toml", DRIVEN)

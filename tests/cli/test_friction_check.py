@@ -51,7 +51,8 @@ class FrictionCheck(ProgramTest):
         self.assertEqual((exact["converged"], early["converged"]), (True, False))
         self.assertGreater(early["error"], 100 * exact["error"])
         self.assertLess(early["error"], 1)
-        self.assertEqual(run(self.write("problem.txt", text), "none").returncode, 2)
+        for bad in ("none", "1e5x", "-1", "0"):
+            self.assertEqual(run(self.write("problem.txt", text), bad).returncode, 2, bad)
 
     def test_bad_input_is_refused_with_the_place_and_code_2(self):
         good = f"1\n0.5\n-1 0 0\n{UNIT}"
