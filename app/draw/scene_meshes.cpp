@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/draw/palette.h"
 #include "app/scene/read/read_scene.h"
 
@@ -128,6 +130,17 @@ void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::s
   meshes.planes.push_back({index, normal, half.offset + normal.dot(geometry.X_LG.p), color});
 }
 
+// Many spheres are small in the picture; with all their facets 300 of them take a software renderer
+// a second for each picture.
+void coarsen_many_spheres(std::vector<ScenePart>& parts, DrawList& list) {
+  constexpr std::ptrdiff_t kMany = 64;
+  const MeshId sphere = list.unit_mesh(UnitShape::sphere);
+  if (std::ranges::count(parts, sphere, &ScenePart::mesh) < kMany) return;
+  const MeshId coarse = list.unit_mesh(UnitShape::coarse_sphere);
+  for (ScenePart& part : parts)
+    if (part.mesh == sphere) part.mesh = coarse;
+}
+
 }  // namespace
 
 SceneMeshes make_scene_meshes(const SceneModel& scene, DrawList& list) {
@@ -145,6 +158,7 @@ SceneMeshes make_scene_meshes(const SceneModel& scene, DrawList& list) {
   for (std::size_t b = 0; b < description.bodies.size(); ++b)
     add_body(scene.geometries[first + b], description.bodies[b], free_bodies, builder, meshes,
              list);
+  coarsen_many_spheres(meshes.parts, list);
   for (const SceneConstraint& c : scene.constraints)
     if (c.type == SceneConstraint::Type::distance)
       meshes.ties.push_back(

@@ -96,7 +96,7 @@ std::size_t RunChannels::place_of(const std::string& name) const {
 }
 
 bool RunChannels::add_pair(int a, int b) {
-  if (!pairs_.try_emplace({a, b}, all_.size()).second) return false;
+  if (pairs_.size() >= kMaxPairs || !pairs_.try_emplace({a, b}, all_.size()).second) return false;
   const std::string pair = name_of_pair(geometries_, a, b);
   add("contact/" + pair, "N", "contact", pair);
   return true;

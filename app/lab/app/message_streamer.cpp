@@ -6,7 +6,8 @@ namespace twinarm {
 
 constexpr double kIdle = 0.1;  // [s]
 // At most so many a second.
-constexpr double kInspections = 5, kInspectionsPaused = 20, kLimits = 2.5, kFailures = 0.2;
+constexpr double kInspections = 5, kInspectionsPaused = 20, kLimits = 2.5, kFailures = 0.2,
+                 kNaming = 1;
 constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and to many
 constexpr std::size_t kManyClients = 2;
 // Factor of the rate, for frames that the step does not permit to be evenly spaced.
@@ -45,6 +46,7 @@ void MessageStreamer::work(const std::stop_token& stop) {
       update_limits(now);
       send_state(now);
       left = send_frame(now, kRateMargin * rate);
+      update_scene();
       send_inspections(now);
     } catch (const std::exception& error) {
       show_failure(error.what());
@@ -115,8 +117,17 @@ void MessageStreamer::take_scene(const LabNow& now) {
   send_scene();
 }
 
+// New contacts have new names: in a heap there are some at each step, and messages are long.
+void MessageStreamer::update_scene() {
+  const bool has_names = view_->naming() != naming_;
+  if (view_->revision() != revision_ ||
+      (has_names && naming_limit_.passes(Clock::now(), kNaming, 1)))
+    send_scene();
+}
+
 void MessageStreamer::send_scene() {
   revision_ = view_->revision();
+  naming_ = view_->naming();
   const Bytes message = shared_bytes(view_->scene_message());
   for (const auto& [client, its] : greeted_.clients) post_(client, scene_channel, message);
 }
@@ -162,7 +173,7 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   std::unique_lock drawing(view_mutex_);
   std::string frame = view_->frame(*now.frame, now.before.get(), sent_frame_.layers, facts);
   drawing.unlock();
-  if (view_->revision() != revision_) send_scene();
+  update_scene();
   last_frame_ = shared_bytes(std::move(frame));
   for (const auto& [client, its] : greeted_.clients) post_(client, frame_channel, last_frame_);
   return kIdle;

@@ -46,6 +46,7 @@ class MessageStreamer {
   void do_jobs();
   void greet_new_clients();
   void take_scene(const LabNow& now);
+  void update_scene();
   void send_scene();
   void send_state(const LabNow& now);
   double send_frame(const LabNow& now, double per_second);
@@ -74,16 +75,16 @@ class MessageStreamer {
   std::map<ClientId, SentInspection> sent_inspections_;
   std::vector<LabParameter> parameters_, unchanged_;  // present; of the scene as opened
   long scene_number_ = -1, change_number_ = -1;
-  std::uint64_t revision_ = 0;  // of the scene message sent last
-  std::string state_;           // sent last
-  struct LastSentFrame {        // what it was made of
+  std::uint64_t revision_ = 0, naming_ = 0;  // of the scene message sent last
+  std::string state_;                        // sent last
+  struct LastSentFrame {                     // what it was made of
     std::shared_ptr<const LabFrame> frame, before;
     std::vector<std::string> layers;
     FrameFacts facts;  // without the age of the input
     bool operator==(const LastSentFrame&) const = default;
   };
   LastSentFrame sent_frame_;
-  RateLimiter frames_, inspections_, limits_, failures_;
+  RateLimiter frames_, inspections_, limits_, failures_, naming_limit_;
   Bytes last_frame_;
   std::string failure_;  // shown last
   std::jthread thread_;

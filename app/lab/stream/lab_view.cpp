@@ -69,7 +69,7 @@ void LabView::draw_layers(const Snapshot& snapshot, const std::vector<std::strin
 }
 
 void LabView::take_values(const LabFrame& frame, const Snapshot& snapshot) {
-  if (channels_.add_pairs(frame)) ++revision_;
+  if (channels_.add_pairs(frame)) ++naming_;
   channels_.values(frame, snapshot, snapshots_.couplings(), columns_.channels);
   variants_.values(frame, snapshot, rows_, columns_.channels);
   columns_.works = works_by_row(frame.recorded, rows_.size());
@@ -101,7 +101,7 @@ void LabView::change(std::shared_ptr<const SimulatePlan> plan,
 void LabView::name_rows(const std::vector<std::string>& rows) {
   if (rows_ == rows) return;
   rows_ = rows;
-  ++revision_;
+  ++naming_;
 }
 
 std::string LabView::frame(const LabFrame& now, const LabFrame* before,
@@ -129,7 +129,7 @@ std::string LabView::frame(const LabFrame& now, const LabFrame* before,
 
 std::string LabView::history(const std::vector<const LabFrame*>& frames) {
   for (const LabFrame* frame : frames)
-    if (channels_.add_pairs(*frame)) ++revision_;
+    if (channels_.add_pairs(*frame)) ++naming_;
   HistoryColumns all;
   all.scene = columns_.scene;
   all.channel_count = static_cast<std::uint32_t>(channels_.all().size());

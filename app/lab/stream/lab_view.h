@@ -81,8 +81,10 @@ class LabView {
   // Names of the rows of the energy balance, by the numbers in frames.
   void name_rows(const std::vector<std::string>& rows);
 
-  // Increases when scene_message() has new content.
+  // They increase when scene_message() has new content: what frames refer to; names of numbers,
+  // which clients ignore in frames until they know them.
   std::uint64_t revision() const { return revision_; }
+  std::uint64_t naming() const { return naming_; }
   std::string scene_message() const;
   const MeshStore& store() const { return store_; }
 
@@ -109,7 +111,7 @@ class LabView {
   std::vector<std::string> rows_;
   std::vector<std::vector<LegendLine>> legends_;  // by layer
   FrameColumns columns_;
-  std::uint64_t revision_ = 1;
+  std::uint64_t revision_ = 1, naming_ = 1;
 };
 
 }  // namespace twinarm

@@ -40,10 +40,11 @@ using CornerUv = std::array<std::array<float, 2>, 3>;
 DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv = {});
 
 enum class UnitShape {
-  box,       // edge 1, centred
-  sphere,    // radius 1, centred
-  cylinder,  // radius 1, axis z from 0 to 1
-  cone,      // base radius 1 at z = 0, tip at z = 1
+  box,            // edge 1, centred
+  sphere,         // radius 1, centred
+  coarse_sphere,  // the same with a sixth of the triangles
+  cylinder,       // radius 1, axis z from 0 to 1
+  cone,           // base radius 1 at z = 0, tip at z = 1
 };
 // With texture coordinates (below), except the cone.
 DrawMesh make_unit_mesh(UnitShape shape);

@@ -10,7 +10,8 @@ namespace twinarm {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 48;  // around a sphere, cylinder or cone
+constexpr int kSegments = 48;        // around a sphere, cylinder or cone
+constexpr int kCoarseSegments = 20;  // around a sphere of which there are many
 
 int add(TriangleMesh& mesh, const Vector3& p) {
   mesh.vertices.push_back(p);
@@ -54,25 +55,25 @@ void add_fan(TriangleMesh& mesh, int ring, int count, const Vector3& tip, bool u
   }
 }
 
-int add_ring(TriangleMesh& mesh, double radius, double z) {
+int add_ring(TriangleMesh& mesh, double radius, double z, int segments = kSegments) {
   const int first = static_cast<int>(mesh.vertices.size());
-  for (int i = 0; i < kSegments; ++i) {
-    const double angle = 2 * kPi * i / kSegments;
+  for (int i = 0; i < segments; ++i) {
+    const double angle = 2 * kPi * i / segments;
     add(mesh, Vector3(radius * std::cos(angle), radius * std::sin(angle), z));
   }
   return first;
 }
 
-TriangleMesh sphere() {
-  constexpr int kRings = kSegments / 2;  // from pole to pole
-  std::vector<Eigen::Vector2d> profile;
-  for (int j = 1; j < kRings; ++j) {
-    const double latitude = kPi * j / kRings - kPi / 2;
-    profile.emplace_back(std::cos(latitude), std::sin(latitude));
+TriangleMesh sphere(int segments) {
+  const int rings = segments / 2;  // from pole to pole
+  TriangleMesh mesh;
+  for (int j = 1; j < rings; ++j) {
+    const double latitude = kPi * j / rings - kPi / 2;
+    const int ring = add_ring(mesh, std::cos(latitude), std::sin(latitude), segments);
+    if (j > 1) add_band(mesh, ring - segments, ring, segments);
   }
-  TriangleMesh mesh = surface_of_revolution(profile);
-  add_fan(mesh, 0, kSegments, -Vector3::UnitZ(), false);
-  add_fan(mesh, (kRings - 2) * kSegments, kSegments, Vector3::UnitZ(), true);
+  add_fan(mesh, 0, segments, -Vector3::UnitZ(), false);
+  add_fan(mesh, (rings - 2) * segments, segments, Vector3::UnitZ(), true);
   return mesh;
 }
 
@@ -159,8 +160,9 @@ DrawMesh make_unit_mesh(UnitShape shape) {
       const TriangleMesh mesh = box();
       return make_draw_mesh(mesh, places_on_box(mesh));
     }
-    case UnitShape::sphere: {
-      const TriangleMesh mesh = sphere();
+    case UnitShape::sphere:
+    case UnitShape::coarse_sphere: {
+      const TriangleMesh mesh = sphere(shape == UnitShape::sphere ? kSegments : kCoarseSegments);
       const auto down = [](const Vector3& p) { return std::acos(p.z()) / kPi; };
       return make_draw_mesh(mesh, places_around_z(mesh, down));
     }

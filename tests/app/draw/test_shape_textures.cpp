@@ -84,7 +84,8 @@ TEST_CASE("textures: each face of a box shows the whole picture, upright") {
 TEST_CASE("textures: a sphere and a cylinder show the picture once around, its centre towards x") {
   const Pose centred{Matrix3::Identity(), Vector3(0, 0, -0.5)};
   for (const DrawList& round :
-       {with_quarters(UnitShape::sphere), with_quarters(UnitShape::cylinder, centred)}) {
+       {with_quarters(UnitShape::sphere), with_quarters(UnitShape::coarse_sphere),
+        with_quarters(UnitShape::cylinder, centred)}) {
     CHECK(seen_quarters(round, Vector3(6, 0, 0), Vector3::UnitZ()) == "rgbw");
     // At the border of the texture its right half is on the left.
     CHECK(seen_quarters(round, Vector3(-6, 0, 0), Vector3::UnitZ()) == "grwb");

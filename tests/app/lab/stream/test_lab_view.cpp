@@ -53,18 +53,53 @@ TEST_CASE(
   CHECK_FALSE(store.file("no such"));
 }
 
-TEST_CASE("lab view: new channels are appended, and the revision increases") {
+TEST_CASE(
+    "lab view: many spheres have a sixth of the facets, and a hundred of their contacts channels") {
+  const auto spheres = [](int count) {
+    std::string scene =
+        "[[body]]\nname = \"floor\"\nfixed = true\n"
+        "shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }\n";
+    for (int i = 0; i < count; ++i)
+      scene += "[[body]]\nname = \"s" + std::to_string(i) +
+               "\"\nmass = 1\nshape = { sphere = { radius = 0.05 } }\nposition = [" +
+               std::to_string(0.2 * i) + ", 0, 0.0499]\n";
+    return scene;
+  };
+  const TemporaryFolder folder;
+  const auto corners = [](const LabView& view) {
+    std::size_t most = 0;
+    for (const std::string& hash : texts_in(view.scene_message(), "meshes", ""))
+      most = std::max<std::size_t>(most, value_at<std::uint32_t>(*view.store().file(hash), 4));
+    return most;
+  };
+  Watched few(folder.write("few.toml", spheres(5)));
+  few.view->frame(few.after(1), nullptr, {}, {});
+  CHECK(corners(*few.view) == 3 * 2 * 48 * 23);
+  Watched many(folder.write("many.toml", spheres(120)));
+  many.view->frame(many.after(1), nullptr, {}, {});
+  const ReadFrame drawn(many.view->frame(many.after(2), nullptr, all_layers(many), {}));
+  const auto meshes = texts_in(many.view->scene_message(), "meshes", "");
+  for (std::size_t i = 0; i < 120; ++i)
+    CHECK(value_at<std::uint32_t>(*many.view->store().file(meshes[drawn.mesh[i]]), 4) ==
+          3 * 2 * 20 * 9);
+  const auto channels = texts_in(many.view->scene_message(), "channels", "name");
+  CHECK(std::ranges::count_if(channels, [](const std::string& name) {
+          return name.starts_with("contact/floor-s");
+        }) == 100);
+}
+
+TEST_CASE("lab view: new channels are appended, and renew the names") {
   const TemporaryFolder folder;
   Watched watched(folder.write("drop.toml", replaced(kBoxes, "[0.5, 0, 0.1]", "[0.5, 0, 0.102]")));
   const LabFrame first = watched.after(1);
   watched.view->frame(first, nullptr, {}, {});
   const auto before = texts_in(watched.view->scene_message(), "channels", "name");
-  const std::uint64_t revision = watched.view->revision();
+  const std::uint64_t naming = watched.view->naming();
   watched.view->frame(first, nullptr, {}, {});
-  CHECK(watched.view->revision() == revision);
+  CHECK(watched.view->naming() == naming);
   const LabFrame landed = watched.after(100);
   watched.view->frame(landed, nullptr, {"forces"}, {});
-  CHECK(watched.view->revision() > revision);
+  CHECK(watched.view->naming() > naming);
   auto after = texts_in(watched.view->scene_message(), "channels", "name");
   REQUIRE(after.size() == before.size() + 1);
   CHECK(after.back() == "contact/floor-resting");
