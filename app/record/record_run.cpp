@@ -1,5 +1,8 @@
 #include "app/record/record_run.h"
 
+#include <string_view>
+#include <unordered_map>
+
 #include "app/render/list/image.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -104,11 +107,24 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
   }
 }
 
-std::uint32_t number_in(std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::ranges::find(names, name) - names.begin();
-  if (static_cast<std::size_t>(place) == names.size()) names.push_back(name);
-  return static_cast<std::uint32_t>(place);
-}
+// Indices of names; new ones are appended. A heap has thousands.
+class Numbering {
+ public:
+  Numbering(std::vector<std::string>& names, std::size_t most_new) : names_(names) {
+    names_.reserve(names.size() + most_new);  // the map has views of them
+    for (std::uint32_t i = 0; i < names.size(); ++i) numbers_.emplace(names[i], i);
+  }
+  std::uint32_t of(const std::string& name) {
+    const auto next = static_cast<std::uint32_t>(names_.size());
+    const auto [found, is_new] = numbers_.try_emplace(name, next);
+    if (is_new) names_.push_back(name);
+    return found->second;
+  }
+
+ private:
+  std::vector<std::string>& names_;
+  std::unordered_map<std::string_view, std::uint32_t> numbers_;
+};
 
 using recording_format::kMomentumName, recording_format::kName;
 
@@ -235,8 +251,10 @@ RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared, bool with_
 
 void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
                          std::vector<std::string>& momentum_names, RecordedFrame& frame) {
+  Numbering rows(names, run.energy_balance().size()),
+      momentum_rows(momentum_names, run.momentum().size());
   add_rows(run, frame, [&](char kind, const std::string& name) {
-    return number_in(kind == kName ? names : momentum_names, name);
+    return (kind == kName ? rows : momentum_rows).of(name);
   });
 }
 

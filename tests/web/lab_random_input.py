@@ -205,6 +205,7 @@ def still_there(page, user):
     """The page has not reloaded and draws new frames."""
     if not page.evaluate("window.isSamePage === true"):
         return ["the page was reloaded"]
+    page.wait_for("twinarm.page.link.open")
     user.send(do="scene", name="pendulum")
     page.wait_for(f"{STATE}.name === 'pendulum' && twinarm.page.frame?.scene === twinarm.page.scene.scene")
     user.send(do="speed", factor=1)

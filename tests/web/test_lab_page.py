@@ -48,6 +48,15 @@ FAINT = """(() => {
 
 
 class LabPage(LabCase):
+    def test_a_page_that_was_busy_keeps_its_connection(self):
+        self.until("twinarm.page.link.open && twinarm.page.frame")
+        self.value("""(({link}) => {
+            window.socket = link.socket;
+            const end = performance.now() + 3000;
+            while (performance.now() < end) link.heard = -1e4; })(twinarm.page)""")
+        self.page.frames(20)
+        self.assertTrue(self.value("socket === twinarm.page.link.socket && socket.readyState === WebSocket.OPEN"))
+
     def test_a_connection_that_has_gone_silent_is_opened_anew(self):
         link = "twinarm.page.link"
         self.until(f"{link}.open && {STATE}.playing")

@@ -9,6 +9,7 @@ constexpr double kIdle = 0.1;  // [s]
 constexpr double kInspections = 5, kInspectionsPaused = 20, kLimits = 2.5, kFailures = 0.2,
                  kNaming = 1;
 constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and to many
+constexpr double kStates = 1;  // of one that has not changed: pages hear that the lab is there
 constexpr std::size_t kManyClients = 2;
 // Factor of the rate, for frames that the step does not permit to be evenly spaced.
 constexpr double kRateMargin = 1.05;
@@ -146,7 +147,7 @@ void MessageStreamer::update_limits(const LabNow& now) {
 
 void MessageStreamer::send_state(const LabNow& now) {
   std::string state = state_message(*now.status, greeted_, parameters_, gallery_);
-  if (state == state_) return;
+  if (state == state_ && !states_.passes(Clock::now(), kStates, 1)) return;
   state_ = std::move(state);
   for (const auto& [client, its] : greeted_.clients)
     post_(client, state_channel, shared_bytes(addressed(state_, client, its.secret)));

@@ -84,7 +84,7 @@ class MessageStreamer {
     bool operator==(const LastSentFrame&) const = default;
   };
   LastSentFrame sent_frame_;
-  RateLimiter frames_, inspections_, limits_, failures_, naming_limit_;
+  RateLimiter frames_, inspections_, limits_, failures_, naming_limit_, states_;
   Bytes last_frame_;
   std::string failure_;  // shown last
   std::jthread thread_;

@@ -10,7 +10,8 @@ export type News = ReturnType<Link['take']>;
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
-const SILENCE = 5000; // of a run that plays: the connection is lost, though nobody closed it [ms]
+const SILENCE = 5000; // the connection is lost, though nobody closed it: the lab sends something each second [ms]
+const LISTENS = 1000; // so often [ms]
 const KIND = /"kind":\s*"(\w+)"/; // precedes all names of the scene
 
 export class Link {
@@ -22,14 +23,14 @@ export class Link {
   private pause = FIRST_PAUSE;
   private timer = 0;
   private heard = 0; // time of the last message [ms]
-  private isPlaying = false;
+  private listened = 0; // time of the last listen() [ms]
 
   constructor(private readonly url: string, private readonly changed: (open: boolean) => void) {
     addEventListener('online', () => this.connect());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.connect();
     });
-    setInterval(() => this.listen(), SILENCE / 5);
+    setInterval(() => this.listen(), LISTENS);
     this.connect();
   }
 
@@ -46,11 +47,9 @@ export class Link {
       const found = this.texts.get(kind);
       return found === undefined ? null : (JSON.parse(found) as T);
     };
-    const state = text<StateMessage>('state');
-    if (state) this.isPlaying = state.playing;
     const news = {
       scene: text<SceneMessage>('scene'),
-      state,
+      state: text<StateMessage>('state'),
       inspection: text<BodyInspection>('inspection'),
       frame: this.waiting && decodeFrame(this.waiting),
     };
@@ -75,9 +74,13 @@ export class Link {
     socket.onclose = () => this.lose();
   }
 
-  // A computer that slept, or another network: the socket stays open for minutes and says nothing.
+  // A computer that slept, or another network: the socket stays open for minutes and says nothing. A page that
+  // was busy has not heard what waits for it.
   private listen(): void {
-    if (!this.open || !this.isPlaying || performance.now() - this.heard < SILENCE) return;
+    const now = performance.now();
+    if (now - this.listened > 2 * LISTENS) this.heard = Math.max(this.heard, now - SILENCE + 2 * LISTENS);
+    this.listened = now;
+    if (!this.open || now - this.heard < SILENCE) return;
     this.socket!.onclose = this.socket!.onmessage = null;
     this.socket!.close();
     this.lose();

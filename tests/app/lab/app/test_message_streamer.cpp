@@ -197,6 +197,15 @@ TEST_CASE("lab frames: while paused one for each visible change, and the last on
   CHECK(lab.frames().back().step == 0);
 }
 
+TEST_CASE(
+    "message streamer: pages hear each second that the lab is there, also while it is paused") {
+  Streamed lab(kSlowlyDriven);
+  lab.session.push(parse_command(R"({"do": "play", "on": false})"));
+  lab.settle();
+  const std::size_t before = lab.states();
+  CHECK(comes_true([&] { return lab.states() > before + 2; }));
+}
+
 TEST_CASE("message streamer: a new client gets the scene first, and each frame once") {
   Streamed lab(kSlowlyDriven);
   for (ClientId client = 2; client < 60; ++client) {
