@@ -145,11 +145,25 @@ class ExpressionParser {
     if (!is_letter(text_[at])) fail(at, "unexpected '" + std::string(1, text_[at]) + "'");
     while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
     const std::string_view name = text_.substr(at, at_ - at);
-    if (const auto known = std::ranges::find(symbols_, name, &ExpressionSymbol::name);
-        known != symbols_.end())
-      return {graph_.symbol(name), known->dimension};
+    if (const ExpressionSymbol* symbol = symbol_at(at, name))
+      return {graph_.symbol(symbol->name), symbol->dimension};
     if (name == "pi") return {graph_.constant(std::numbers::pi), Dimension{}};
     return call(name, at);
+  }
+
+  // A symbol may have a name in parentheses: q(arm/elbow).
+  const ExpressionSymbol* symbol_at(std::size_t at, std::string_view name) {
+    const auto find = [&](std::string_view whole) {
+      const auto known = std::ranges::find(symbols_, whole, &ExpressionSymbol::name);
+      return known == symbols_.end() ? nullptr : &*known;
+    };
+    const std::size_t close = text_.find(')', at);
+    if (at_ < text_.size() && text_[at_] == '(' && close != std::string_view::npos)
+      if (const ExpressionSymbol* symbol = find(text_.substr(at, close + 1 - at))) {
+        at_ = close + 1;
+        return symbol;
+      }
+    return find(name);
   }
 
   Term number() {

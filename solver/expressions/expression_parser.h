@@ -1,6 +1,7 @@
 // Formulas as text: numbers, symbols, + - * / ^, parentheses and
 //   sqrt sin cos tan exp log tanh abs (x), atan2(y, x), min(a, b), max(a, b), pi,
 //   if(a < b, where true, else), with < > <= >=
+// A symbol is a name or has one in parentheses: q(arm/elbow).
 // A number may have a unit: 12[N/mm] is 12000 N/m. A number without one takes that which fits.
 #pragma once
 

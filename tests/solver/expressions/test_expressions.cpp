@@ -17,8 +17,9 @@ namespace {
 using Id = ExpressionGraph::Id;
 
 constexpr Dimension kNone{}, kMetre{{2, 0, 0}}, kSecond{{0, 0, 2}}, kNewton{{2, 2, -4}};
-const std::vector<ExpressionSymbol> kSymbols = {
-    {"x", kNone}, {"y", kNone}, {"q", kMetre}, {"v", kMetre / kSecond}, {"t", kSecond}};
+const std::vector<ExpressionSymbol> kSymbols = {{"x", kNone},   {"y", kNone},
+                                                {"q", kMetre},  {"v", kMetre / kSecond},
+                                                {"t", kSecond}, {"q(arm/elbow)", kNone}};
 
 struct Formula {
   ExpressionGraph graph;
@@ -26,9 +27,9 @@ struct Formula {
   explicit Formula(const std::string& text) : id(parse_expression(graph, text, kSymbols)) {}
 
   double at(double x, double y = 0, double q = 0, double v = 0, double t = 0) {
-    return value(id, {x, y, q, v, t});
+    return value(id, {x, y, q, v, t, 0});
   }
-  double value(Id of, const std::array<double, 5>& values) {
+  double value(Id of, const std::array<double, 6>& values) {
     std::vector<Id> inputs;
     for (const ExpressionSymbol& symbol : kSymbols) inputs.push_back(graph.symbol(symbol.name));
     const std::array outputs{of};
@@ -36,7 +37,7 @@ struct Formula {
     return tape(values)[0];
   }
   double slope(double x, double y = 0) {
-    return value(graph.derivative(id, graph.symbol("x")), {x, y, 0, 0, 0});
+    return value(graph.derivative(id, graph.symbol("x")), {x, y, 0, 0, 0, 0});
   }
 };
 
@@ -130,6 +131,9 @@ TEST_CASE("equal terms are one node, and a formula's text is read as the same no
   CHECK(parse("--x") == parse("x"));
   CHECK(parse("-(x - y)") == parse("y - x"));
   CHECK(parse("2 * 3 * x") == parse("6 * x"));
+  CHECK(parse("q(arm/elbow) * q") ==
+        graph.multiply(graph.symbol("q(arm/elbow)"), graph.symbol("q")));
+  CHECK(graph.text(parse("-2 * q(arm/elbow)")) == "q(arm/elbow) * (-2)");
   std::mt19937 random(3);
   for (int n = 0; n < 300; ++n) {
     const std::string text = random_formula(random, 4);
@@ -200,6 +204,7 @@ TEST_CASE("what is no formula is refused with its place, and sizes are bounded")
   CHECK(error_of("x^y") == "at character 3: exponent must be a number");
   CHECK(error_of("1e999").starts_with("at character 1: not a finite number"));
   CHECK(error_of("3[N").starts_with("at character 2: unit has no ']'"));
+  CHECK(error_of("q(wrist)").starts_with("at character 2: unexpected '('"));
   CHECK(error_of("foo + x").starts_with("at character 1: unknown name 'foo'; known are x, y, q"));
   CHECK(error_of(std::string(99, '(') + "x" + std::string(99, ')')) == "");
   CHECK(error_of(std::string(101, '(') + "x" + std::string(101, ')'))
