@@ -47,11 +47,10 @@ double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
 
 }  // namespace
 
-EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                             SceneCouplings* couplings, Integrator integrator,
-                             bool others_want_inner, PosedStates& poses)
+EnergyBalance::EnergyBalance(const RobotInput& input, GivenForces& given, SceneCouplings* couplings,
+                             Integrator integrator, bool others_want_inner, PosedStates& poses)
     : input_(input),
-      wrenches_(wrenches),
+      given_(given),
       couplings_(couplings),
       poses_(poses),
       w_(input.model),
@@ -72,8 +71,13 @@ void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
     if (!actuators_.back().is_exact)
       integrals_.push_back({EnergyRowKind::actuator, "actuator/" + joints[j].name});
   }
-  for (std::size_t i = 0; i < wrenches_.size(); ++i)
+  for (std::size_t i = 0; i < given_.wrenches().size(); ++i)
     integrals_.push_back({EnergyRowKind::wrench, "wrench/" + std::to_string(i)});
+  for (const PointSpring& spring : input_.springs) {
+    if (spring.damping != 0)
+      integrals_.push_back({EnergyRowKind::spring, "spring/" + spring.name + "/damper"});
+    if (spring.law) integrals_.push_back({EnergyRowKind::spring, "spring/" + spring.name + "/law"});
+  }
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0) continue;
     const std::size_t iv = model.iv[i];  // all dofs of a joint have equal friction
@@ -110,7 +114,12 @@ std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) con
     if (!actuator.is_exact)
       powers.push_back(
           dot(input_.state.tau, *actuator.joint, from_solver(*actuator.joint, x, x.qd)));
-  for (const GivenWrench& wrench : wrenches_) powers.push_back(wrench.power(poses_.at(x)));
+  for (const GivenWrench& wrench : given_.wrenches()) powers.push_back(wrench.power(poses_.at(x)));
+  for (std::size_t i = 0; i < input_.springs.size(); ++i) {
+    const PointSprings::Reading now = given_.springs().reading(i, x, poses_.at(x));
+    if (input_.springs[i].damping != 0) powers.push_back(-now.damping * now.rate);
+    if (input_.springs[i].law) powers.push_back(-now.law * now.rate);
+  }
   const Model<double>& model = input_.model;
   for (const Friction& f : damped_) {
     double sum = 0;
@@ -179,6 +188,12 @@ double EnergyBalance::elastic_energy(std::size_t c, const State<double>& x) cons
   return 0.5 * couplings_->spec(c).spring.k * offset.squaredNorm();
 }
 
+double EnergyBalance::spring_energy(std::size_t i, const State<double>& x) const {
+  const PointSprings::Reading now = given_.springs().reading(i, x, poses_.at(x));
+  const PointSpring& spring = input_.springs[i];
+  return 0.5 * now.elastic * (now.length - spring.rest_length);
+}
+
 std::vector<EnergyRow> EnergyBalance::input_work() const {
   std::vector<EnergyRow> rows;
   const std::size_t first = integrals_.size() - 3 * coupling_count();
@@ -223,6 +238,10 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
                       "coupling/" + spec.name + "/" + name_of(third),
                       implicit_[c] - spring - damper->work});
   }
+  for (std::size_t i = 0; i < input_.springs.size(); ++i)
+    if (input_.springs[i].stiffness != 0)
+      rows.push_back({EnergyRowKind::spring, "spring/" + input_.springs[i].name,
+                      spring_energy(i, start_) - spring_energy(i, now_)});
   double residual = now.kinetic - at_start_.kinetic;
   for (const EnergyRow& row : rows) residual -= row.work;
   rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});

@@ -35,9 +35,8 @@ namespace twinarm {
 class EnergyBalance {
  public:
   // All must outlive it; `couplings` may be null.
-  EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                SceneCouplings* couplings, Integrator integrator, bool others_want_inner,
-                PosedStates& poses);
+  EnergyBalance(const RobotInput& input, GivenForces& given, SceneCouplings* couplings,
+                Integrator integrator, bool others_want_inner, PosedStates& poses);
 
   // Inner quadrature nodes within a step, in (0, 1).
   std::span<const double> inner_nodes() const { return nodes_; }
@@ -63,6 +62,7 @@ class EnergyBalance {
   using Side = SceneCouplings::Side;  // one-sided limit at a kink of the target's motion
   std::vector<double> powers(const State<double>& x, Side side) const;  // as integrals_
   double elastic_energy(std::size_t c, const State<double>& x) const;   // k e^2 / 2
+  double spring_energy(std::size_t i, const State<double>& x) const;    // k (l - l0)^2 / 2
   struct Energies {
     double kinetic, potential;  // [J]
   };
@@ -71,7 +71,7 @@ class EnergyBalance {
   std::size_t coupling_count() const { return couplings_ ? couplings_->size() : 0; }
 
   const RobotInput& input_;
-  const std::vector<GivenWrench>& wrenches_;
+  GivenForces& given_;
   std::vector<Actuator> actuators_;
   std::vector<Friction> damped_, friction_;
   SceneCouplings* couplings_;

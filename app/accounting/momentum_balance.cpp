@@ -2,12 +2,12 @@
 
 namespace twinarm {
 
-MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+MomentumBalance::MomentumBalance(const RobotInput& input, GivenForces& given,
                                  SceneCouplings* couplings, Integrator integrator,
                                  bool locates_events, const Simulation& simulation,
                                  PosedStates& poses)
     : input_(input),
-      wrenches_(wrenches),
+      given_(given),
       couplings_(couplings),
       integrator_(integrator),
       rule_(locates_events ? Rule::located
@@ -128,9 +128,13 @@ void MomentumBalance::add_given(double part, const State<double>& x) {
         sums_[tree(t)].moment -= part * first_moment.cross(g);
       }
   }
-  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const Wrench now = wrenches_[i].now(k);
+  for (std::size_t i = 0; i < given_.wrenches().size(); ++i) {
+    const Wrench now = given_.wrenches()[i].now(k);
     sums_[wrench(i)].add_wrench(part, now.point, now.force, now.torque);
+  }
+  for (std::size_t i = 0; i < input_.springs.size(); ++i) {  // on body b
+    const PointSprings::Reading now = given_.springs().reading(i, x, k);
+    sums_[spring(i)].add_wrench(part, now.p_B, -now.tension() * now.direction, Vector3::Zero());
   }
 }
 

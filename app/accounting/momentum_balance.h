@@ -30,9 +30,9 @@ struct MomentumRow {
 class MomentumBalance {
  public:
   // All must outlive it; `couplings` may be null. `simulation` accounts for constraint work.
-  MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                  SceneCouplings* couplings, Integrator integrator, bool locates_events,
-                  const Simulation& simulation, PosedStates& poses);
+  MomentumBalance(const RobotInput& input, GivenForces& given, SceneCouplings* couplings,
+                  Integrator integrator, bool locates_events, const Simulation& simulation,
+                  PosedStates& poses);
 
   bool wants_inner() const { return rule_ == Rule::integral; }  // states at inner nodes
   // The step of h from the state of the last call (or the start) to `after`; weights of all nodes.
@@ -57,9 +57,10 @@ class MomentumBalance {
     std::string joint;
     std::vector<char> bodies;
   };
-  // Indices into sums_: gravity, wrenches, couplings, loops, trees.
+  // Indices into sums_: gravity, wrenches, springs, couplings, loops, trees.
   std::size_t wrench(std::size_t i) const { return 1 + i; }
-  std::size_t coupling(std::size_t c) const { return wrench(wrenches_.size()) + c; }
+  std::size_t spring(std::size_t i) const { return wrench(given_.wrenches().size()) + i; }
+  std::size_t coupling(std::size_t c) const { return spring(input_.springs.size()) + c; }
   std::size_t loop(std::size_t l) const { return coupling(coupling_count_) + l; }
   std::size_t tree(std::size_t t) const { return loop(loop_count_) + t; }
 
@@ -75,7 +76,7 @@ class MomentumBalance {
                            std::vector<EnergyMomentum>& of_trees) const;
 
   const RobotInput& input_;
-  const std::vector<GivenWrench>& wrenches_;
+  GivenForces& given_;
   SceneCouplings* couplings_;
   Integrator integrator_;
   Rule rule_;

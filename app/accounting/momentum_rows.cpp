@@ -67,9 +67,14 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
     if (moves(a) != moves(b)) add(kind, name, (moves(b) ? 1.0 : -1.0) * on_b);
   };
   add(EnergyRowKind::gravity, "gravity", sums_[0]);
-  for (std::size_t i = 0; i < wrenches_.size(); ++i)
+  for (std::size_t i = 0; i < given_.wrenches().size(); ++i)
     between(EnergyRowKind::wrench, "wrench/" + std::to_string(i), sums_[wrench(i)], 0,
-            static_cast<int>(wrenches_[i].body()));
+            static_cast<int>(given_.wrenches()[i].body()));
+  for (std::size_t i = 0; i < input_.springs.size(); ++i) {
+    const PointSpring& spec = input_.springs[i];
+    between(EnergyRowKind::spring, "spring/" + spec.name, sums_[spring(i)], spec.a.body,
+            spec.b.body);
+  }
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.is_external())

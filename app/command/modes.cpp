@@ -27,10 +27,12 @@ int run_modes(const ModesOptions& options) {
   simulate.integrator = "semi-implicit";
   SimulatePlan prepared = prepare_simulation(simulate);
   SimulateInput& input = prepared.input;
-  if (input.scene && input.robot.coordinates.all().empty() && input.scene->constraints.empty())
-    throw InputError({{input.scene->description.file.string(), 0, "scene",
-                       "it has neither a robot with a joint nor a constraint, and so no modes",
-                       "add a [[robot]] with a joint, or a [[constraint]]", "scene.nothing-held"}});
+  if (input.scene && input.robot.coordinates.all().empty() && input.scene->constraints.empty() &&
+      input.scene->springs.empty())
+    throw InputError(
+        {{input.scene->description.file.string(), 0, "scene",
+          "it has neither a robot with a joint nor a constraint or spring, and so no modes",
+          "add a [[robot]] with a joint, a [[constraint]] or a [[spring]]", "scene.nothing-held"}});
   check_dense(input.robot.model, options.robot.model);
   const ModesOf found = find_modes(input);
   print_warnings(found.warnings, options.json);

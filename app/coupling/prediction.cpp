@@ -221,6 +221,7 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
             c.name, arm.joint, arm.target_radius, arm.max_target_radius));
   }
   if (!scene.constraints.empty()) warn("constraints are left out");
+  if (!scene.springs.empty()) warn("springs are left out");
   if (scene.may_touch()) warn("contacts are left out");
 }
 

@@ -51,7 +51,7 @@ void Extent::add(const SceneMeshes& meshes, const Snapshot& snapshot) {
   for (const ShownTargetRobot& target : snapshot.targets)
     for (const ScenePart& part : meshes.parts)
       if (part.robot == static_cast<int>(target.robot)) add_box_of(part, target.X_WL[part.body]);
-  for (const DistanceConstraintLine& tie : meshes.ties) {
+  for (const TieLine& tie : meshes.ties) {
     add(snapshot.k.X_WL[tie.a] * tie.p_La);
     add(snapshot.k.X_WL[tie.b] * tie.p_Lb);
   }

@@ -163,6 +163,9 @@ SceneMeshes make_scene_meshes(const SceneModel& scene, DrawList& list) {
     if (c.type == SceneConstraint::Type::distance)
       meshes.ties.push_back(
           {static_cast<std::size_t>(c.a), static_cast<std::size_t>(c.b), c.X_AC.p, c.X_BC.p});
+  for (const PointSpring& s : scene.springs)
+    meshes.ties.push_back({static_cast<std::size_t>(s.a.body), static_cast<std::size_t>(s.b.body),
+                           s.a.p_L, s.b.p_L, true});
   return meshes;
 }
 

@@ -51,15 +51,16 @@ struct ScenePlane {
   Color color;
 };
 
-struct DistanceConstraintLine {  // a string or rod between two points
+struct TieLine {  // a string, rod or spring between two points
   std::size_t a = 0, b = 0;
   Vector3 p_La = Vector3::Zero(), p_Lb = Vector3::Zero();
+  bool is_spring = false;
 };
 
 struct SceneMeshes {
   std::vector<ScenePart> parts;
   std::vector<ScenePlane> planes;
-  std::vector<DistanceConstraintLine> ties;
+  std::vector<TieLine> ties;
   std::vector<std::string> notes;  // replaced or omitted parts, for the user
 };
 

@@ -45,9 +45,14 @@ Color variant_color(const ScenePart& part, std::size_t lane) {
 }
 
 void draw_lines(SceneView& view, const std::vector<Pose>& X_WL, const Vector3& offset_W) {
-  for (const DistanceConstraintLine& line : view.cast.ties)
-    add_rod(view.list, offset_W + X_WL[line.a] * line.p_La, offset_W + X_WL[line.b] * line.p_Lb,
-            0.004 * view.extent.radius(), palette::kConstraint);
+  for (const TieLine& line : view.cast.ties) {
+    const Vector3 a_W = offset_W + X_WL[line.a] * line.p_La,
+                  b_W = offset_W + X_WL[line.b] * line.p_Lb;
+    if (line.is_spring)
+      add_spring(view.list, a_W, b_W, 0.02 * view.extent.radius(), palette::kConstraint);
+    else
+      add_rod(view.list, a_W, b_W, 0.004 * view.extent.radius(), palette::kConstraint);
+  }
 }
 
 void draw_first_variant(SceneView& view, const Snapshot& snapshot) {

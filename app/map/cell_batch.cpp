@@ -18,7 +18,8 @@ bool is_plain(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   return plan.run.integrator == Integrator::semi_implicit && !plan.run.locates_events &&
          !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
-         scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
+         scene.constraints.empty() && scene.springs.empty() && scene.motions.empty() &&
+         !scene.couplings.empty() &&
          std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
            return c.is_plain_spring() && c.target.kind != CouplingTarget::Kind::synthetic;
          });

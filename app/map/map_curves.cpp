@@ -114,7 +114,7 @@ struct BoundarySearch {
 bool has_theory(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   const Integrator integrator = plan.run.integrator;
-  if (scene.couplings.empty() || !scene.constraints.empty()) return false;
+  if (scene.couplings.empty() || !scene.constraints.empty() || !scene.springs.empty()) return false;
   if (!facts_of(integrator).implicit_force && !is_polynomial(integrator)) return false;
   return std::ranges::all_of(scene.couplings, &SceneCoupling::is_plain_spring);
 }

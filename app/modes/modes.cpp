@@ -41,11 +41,13 @@ std::vector<LoopClosure> take_loops(SimulateInput& input) {
   return sim.mechanism().dynamics.bilateral().loops().loops();
 }
 
-// Free bodies of the scene with a constraint; the others are left out.
+// Free bodies of the scene with a constraint or spring; the others are left out.
 std::vector<NamedJoint> constrained_bodies(const SimulateInput& input,
                                            const std::vector<LoopClosure>& loops) {
   std::set<int> bodies;
   for (const LoopClosure& loop : loops) bodies.insert({loop.body_a, loop.body_b});
+  for (const PointSpring& spring : input.robot.springs)
+    bodies.insert({spring.a.body, spring.b.body});
   std::vector<NamedJoint> constrained;
   const Model<double>& model = input.robot.model;
   for (const int body : bodies) {
@@ -79,7 +81,7 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
       std::ranges::any_of(model.coulomb_minus, is_positive))
     warnings.emplace_back("Coulomb friction of joints has no linear part and is left out");
   if (input.scene && input.scene->may_touch())
-    warnings.emplace_back("contacts, and free bodies without constraints, are left out");
+    warnings.emplace_back("contacts, and free bodies without constraints or springs, are left out");
   constexpr double kEquilibrium = 1e-6;  // [rad/s^2, m/s^2]
   double largest = 0;
   std::string where;

@@ -4,6 +4,7 @@
 #include "app/robot/coordinates.h"
 #include "collision/import/robot/file_search.h"
 #include "collision/import/robot/missing_inertia.h"
+#include "solver/forces/point_springs.h"
 
 namespace twinarm {
 
@@ -52,6 +53,7 @@ struct RobotInput {
   Coordinates coordinates;
   GivenState state;
   std::vector<std::string> warnings;
+  std::vector<PointSpring> springs = {};  // of a scene
 };
 
 // Throws InputError with all diagnostics: given ones, and those of options, URDF and state.

@@ -121,7 +121,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   add_lever_warnings(made, warnings);
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   add_gravity_warning(made.model, warnings);
-  return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
+  return {{robots, made.model, coordinates, std::move(state), std::move(warnings), made.springs},
           std::move(*scene),
           std::move(*couplings)};
 }

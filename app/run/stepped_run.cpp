@@ -53,9 +53,9 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
     warn(deep_start_warning(*contacts_, simulated.scene->description.contact));
   }
   warn(drift_warning(sim_, plan));
-  momentum_.emplace(input_, given_.wrenches(), simulated.couplings.get(), plan.integrator,
-                    plan.locates_events, sim_, poses_);
-  energy_balance_.emplace(input_, given_.wrenches(), simulated.couplings.get(),
+  momentum_.emplace(input_, given_, simulated.couplings.get(), plan.integrator, plan.locates_events,
+                    sim_, poses_);
+  energy_balance_.emplace(input_, given_, simulated.couplings.get(),
                           plan.locates_events ? Integrator::dopri5 : plan.integrator,
                           momentum_->wants_inner(), poses_);
   bound_ = plan.energy_bound > 0 ? plan.energy_bound

@@ -15,12 +15,9 @@ PointSprings::Reading PointSprings::reading(std::size_t i, const State<double>& 
   if (now.length > 0) now.direction = line / now.length;
   now.rate =
       now.direction.dot(k.velocity(spring.b.body, now.p_B) - k.velocity(spring.a.body, now.p_A));
-  now.stiffness = spring.stiffness, now.damping = spring.damping;
-  now.tension = spring.stiffness * (now.length - spring.rest_length) + spring.damping * now.rate;
-  if (spring.law) {
-    const auto law = (*spring.law)(std::array{now.length, now.rate, x.t});
-    now.tension += law[0], now.stiffness += law[1], now.damping += law[2];
-  }
+  now.elastic = spring.stiffness * (now.length - spring.rest_length);
+  now.damping = spring.damping * now.rate;
+  if (spring.law) now.law = (*spring.law)(std::array{now.length, now.rate, x.t})[0];
   return now;
 }
 
@@ -28,7 +25,7 @@ void PointSprings::add_forces(const State<double>& x, const Kinematics& k,
                               Forces<double>& forces) noexcept {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Reading now = reading(i, x, k);
-    const Vector3 f_W = now.tension * now.direction;
+    const Vector3 f_W = now.tension() * now.direction;
     add_point_force(k, springs_[i].a.body, now.p_A, f_W, forces);
     add_point_force(k, springs_[i].b.body, now.p_B, -f_W, forces);
   }

@@ -24,8 +24,7 @@ struct PointSpring {
   std::string name;
   End a, b;
   double stiffness = 0, damping = 0, rest_length = 0;  // [N/m, N s/m, m]
-  // Of (l, l', t), outputs f, df/dl, df/dl' [N, N/m, N s/m].
-  std::optional<ExpressionTape> law = std::nullopt;
+  std::optional<ExpressionTape> law = std::nullopt;    // of (l, l', t) [N]
 };
 
 class PointSprings final : public ForceSource, public Checkpointable {
@@ -37,12 +36,11 @@ class PointSprings final : public ForceSource, public Checkpointable {
                   Forces<double>& forces) noexcept override;
 
   struct Reading {
-    Vector3 p_A, p_B;                                 // world
-    double length = 0, rate = 0;                      // l, l' [m, m/s]
-    double tension = 0;                               // [N]
-    double stiffness = 0, damping = 0;                // df/dl, df/dl'
-    Vector3 direction = Vector3::Zero();              // e
-    double power() const { return -tension * rate; }  // of the forces on the bodies [W]
+    Vector3 p_A, p_B;                          // world
+    double length = 0, rate = 0;               // l, l' [m, m/s]
+    double elastic = 0, damping = 0, law = 0;  // parts of the tension [N]
+    Vector3 direction = Vector3::Zero();       // e
+    double tension() const { return elastic + damping + law; }
   };
   Reading reading(std::size_t i, const State<double>& x, const Kinematics& k) noexcept;
   const std::vector<PointSpring>& springs() const { return springs_; }

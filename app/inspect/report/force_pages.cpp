@@ -149,6 +149,14 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
     actor.point_W = wrench.in_link_axes ? k.X_WL[wrench.body] * wrench.point : wrench.point;
     actors.push_back(std::move(actor));
   }
+  for (const PointSpring& spring : input.springs) {
+    PointSprings alone({spring});
+    Forces<double> added(input.model);
+    alone.add_forces(input.state.x, k, added);
+    actors.push_back(actor_of("spring/" + spring.name, added));
+    actors.back().is_interaction = true;
+    actors.back().point_W = k.position(spring.b.body, spring.b.p_L);
+  }
   return actors;
 }
 

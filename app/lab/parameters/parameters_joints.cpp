@@ -43,7 +43,8 @@ void add_group(const SceneModel& model, std::size_t robot, const Group& group, R
 void add_joints(const SceneModel& model, std::vector<LabParameter>& parameters) {
   using Row = std::pair<SliderRow, double>;
   const SceneDescription& scene = model.description;
-  const bool is_alone = scene.couplings.empty() && scene.constraints.empty();
+  const bool is_alone =
+      scene.couplings.empty() && scene.constraints.empty() && scene.springs.empty();
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
     const auto add = [&](const Group& group, auto row_of) {
       add_group(model, r, group, row_of, parameters);

@@ -25,7 +25,8 @@ Wrench GivenWrench::now(const Kinematics& k) const {
   return wrench;
 }
 
-GivenForces::GivenForces(const RobotInput& input) : input_(input), by_velocity_(input.model.nv) {
+GivenForces::GivenForces(const RobotInput& input)
+    : input_(input), springs_(input.springs), by_velocity_(input.model.nv) {
   const Kinematics start = kinematics_at(input.model, input.state.x);
   for (const Wrench& wrench : input.state.wrenches) wrenches_.emplace_back(wrench, start);
 }
@@ -37,6 +38,7 @@ void GivenForces::add_forces(const State<double>& x, const Kinematics& k,
   for (std::size_t i = 0; i < by_velocity_.size(); ++i) forces.tau[i] += by_velocity_[i];
   for (const GivenWrench& wrench : wrenches_)
     forces.f_ext[wrench.body()] += in_body_axes(wrench.now(k), k);
+  springs_.add_forces(x, k, forces);
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Constant joint forces and wrenches of a state file; without internal state.
+// Constant joint forces and wrenches of a state file, springs of a scene; without internal state.
 #pragma once
 
 #include <vector>
@@ -31,10 +31,12 @@ class GivenForces : public ForceSource, public Checkpointable {
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   const std::vector<GivenWrench>& wrenches() const { return wrenches_; }
+  PointSprings& springs() { return springs_; }
 
  private:
   const RobotInput& input_;
   std::vector<GivenWrench> wrenches_;
+  PointSprings springs_;
   std::vector<double> by_velocity_;
 };
 

@@ -24,6 +24,7 @@ enum class EnergyRowKind {
   coupling_spring,
   coupling_damper,
   coupling_implicit,
+  spring,          // of a scene: elastic part, damper, force law
   coupling_other,  // `as_printed`, `drive`, and the impulse of a coupling
   contact,         // impulse of a pair
   contact_normal,

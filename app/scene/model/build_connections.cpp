@@ -1,4 +1,4 @@
-// Constraints and couplings: from names to bodies of the model.
+// Constraints, springs and couplings: from names to bodies of the model.
 
 #include "app/scene/model/scene_builder.h"
 #include "solver/spatial/rotation_to_axis.h"
@@ -36,12 +36,34 @@ struct ConstraintBuilder {
     return k.X_WL[static_cast<std::size_t>(body_of(scene, found))].p;
   }
 
-  // The ends of a distance in the world. A single point belongs to the fixed body, else to a; the
-  // other end is the origin of the other body.
-  std::pair<Vector3, Vector3> ends(const ConstraintDescription& given,
-                                   const SceneConstraint& made) const {
+  void build_springs() {
+    for (const SpringDescription& given : scene.description.springs) {
+      PointSpring made;
+      made.name = given.name;
+      made.a.body = body_of(scene, *find_reference(scene.description, given.a));
+      made.b.body = body_of(scene, *find_reference(scene.description, given.b));
+      if (made.a.body == made.b.body)
+        faults.add({scene.description.file.string(), given.line, "spring '" + given.name + "'",
+                    "both are the same body", "name two bodies, at most one of them fixed",
+                    "scene.same-ends"});
+      const auto [p_WA, p_WB] = ends(given, made.b.body);
+      made.a.p_L = k.X_WL[static_cast<std::size_t>(made.a.body)].inverse() * p_WA;
+      made.b.p_L = k.X_WL[static_cast<std::size_t>(made.b.body)].inverse() * p_WB;
+      made.stiffness = given.stiffness;
+      made.damping = given.damping;
+      made.rest_length = given.rest_length.value_or((p_WB - p_WA).norm());
+      made.law = given.law;
+      scene.springs.push_back(std::move(made));
+    }
+    faults.check();
+  }
+
+  // The ends of a distance or spring in the world. A single point belongs to the fixed body, else
+  // to a; the other end is the origin of the other body.
+  template <class Given>
+  std::pair<Vector3, Vector3> ends(const Given& given, int b) const {
     const Vector3 origin_a = origin_of(given.a), origin_b = origin_of(given.b);
-    if (given.point && !given.point_b && made.b == 0) return {origin_a, *given.point};
+    if (given.point && !given.point_b && b == 0) return {origin_a, *given.point};
     return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
   }
 
@@ -75,7 +97,7 @@ struct ConstraintBuilder {
       fault(made, "both are the same body", "name two bodies, at most one of them fixed",
             "scene.same-ends");
     if (given.type == ConstraintDescription::Type::distance) {
-      const auto [p_WA, p_WB] = ends(given, made);
+      const auto [p_WA, p_WB] = ends(given, made.b);
       made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
       made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};
       made.length = (p_WB - p_WA).norm();
@@ -155,7 +177,9 @@ void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& fault
 }  // namespace
 
 void build_constraints(SceneModel& scene) {
-  ConstraintBuilder{scene}.build();
+  ConstraintBuilder builder{scene};
+  builder.build();
+  builder.build_springs();
 }
 
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {

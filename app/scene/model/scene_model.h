@@ -15,6 +15,7 @@
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/target/target_robot.h"
+#include "solver/forces/point_springs.h"
 #include "solver/integration/integration_state.h"
 #include "solver/model/model.h"
 
@@ -91,6 +92,7 @@ struct SceneModel {
   std::vector<SceneMotion> motions;
   std::vector<SceneCoupling> couplings;
   std::vector<SceneConstraint> constraints;
+  std::vector<PointSpring> springs;
 
   std::pair<int, int> bodies_of_robot(std::size_t robot) const;  // the first and the last
   // Whether a pair of geometries has no contacts: of one rigid body, neighbours in a robot, both

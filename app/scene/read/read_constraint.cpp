@@ -1,7 +1,8 @@
-// Constraints between links and bodies.
+// Constraints and springs between links and bodies.
 #include "app/scene/read/read_scene.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
+#include "solver/expressions/expression_parser.h"
 
 namespace twinarm {
 namespace {
@@ -58,7 +59,48 @@ void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   }
 }
 
+// Of length l, rate v and time t.
+std::optional<ExpressionTape> read_law(TableReader& table) {
+  const auto text = table.text("force");
+  if (!text) return std::nullopt;
+  const Dimension m = parse_unit("m")->dimension, s = parse_unit("s")->dimension;
+  const std::vector<ExpressionSymbol> symbols{{"l", m}, {"v", m / s}, {"t", s}};
+  try {
+    ExpressionGraph graph;
+    const auto force = parse_expression(graph, *text, symbols, parse_unit("N")->dimension);
+    const std::array inputs{graph.symbol("l"), graph.symbol("v"), graph.symbol("t")};
+    return ExpressionTape(graph, inputs, std::array{force});
+  } catch (const std::exception& error) {
+    table.fault("force", error.what(),
+                "give a force of length l, rate v and time t, as \"-20[N] + 3[N s/m] * v\"",
+                "scene.formula");
+    return std::nullopt;
+  }
+}
+
 }  // namespace
+
+void SceneReader::read_spring(const Value& value, std::size_t index) {
+  TableReader table = open(value, "spring");
+  SpringDescription spring;
+  spring.line = table.line();
+  spring.name = read_item_name(table, "spring", index);
+  spring.a = read_end(table, "a", false, scene);
+  spring.b = read_end(table, "b", false, scene);
+  if (!spring.a.empty() && spring.a == spring.b)
+    table.fault("b", "is the same as a", "name two bodies", "scene.same-ends");
+  spring.point = table.vector("point");
+  spring.point_b = table.vector("point_b");
+  spring.stiffness = table.not_negative("stiffness").value_or(0);
+  spring.damping = table.not_negative("damping").value_or(0);
+  spring.rest_length = table.not_negative("rest_length");
+  spring.law = read_law(table);
+  if (!table.has("stiffness") && !table.has("damping") && !table.has("force"))
+    table.fault("stiffness", "is missing", "give a stiffness, a damping or a force",
+                "scene.missing");
+  table.done();
+  scene.springs.push_back(std::move(spring));
+}
 
 void SceneReader::read_constraint(const Value& value, std::size_t index) {
   TableReader table = open(value, "constraint");

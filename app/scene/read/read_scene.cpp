@@ -73,6 +73,8 @@ void SceneReader::read(const Value& root) {
   for (const Value* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
   index = 0;
   for (const Value* joint : table.tables("constraint")) read_constraint(*joint, index++);
+  index = 0;
+  for (const Value* spring : table.tables("spring")) read_spring(*spring, index++);
   table.text("note");
   table.done();
   if (faults.empty() && !root.find("robot") && !root.find("body"))

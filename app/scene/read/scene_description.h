@@ -18,6 +18,7 @@
 #include "collision/import/robot/robot_model.h"
 #include "coupling/laws/coupling_spec.h"
 #include "coupling/target/synthetic_operator.h"
+#include "solver/expressions/expression_tape.h"
 #include "solver/forces/force_source.h"
 #include "solver/integration/integrator.h"
 #include "solver/loops/loop_closure.h"
@@ -144,6 +145,17 @@ struct ConstraintDescription {
   double ratio = 1;                             // gear: speed of a = ratio * speed of b
 };
 
+// A spring-damper or force law along the line between two points (solver/forces/point_springs.h).
+struct SpringDescription {
+  std::string name;
+  int line = 0;
+  std::string a, b;                       // bodies, robot/link or world
+  std::optional<Vector3> point, point_b;  // world, at the start; else the origins
+  double stiffness = 0, damping = 0;      // [N/m, N s/m]
+  std::optional<double> rest_length;      // [m]; else the length at the start
+  std::optional<ExpressionTape> law;      // of (l, v, t) [N]
+};
+
 enum class ContactMode { rigid, compliant, event };
 inline const std::vector<std::string> kContactModes{"rigid", "compliant", "event"};
 
@@ -167,6 +179,7 @@ struct SceneDescription {
   std::vector<PairDescription> pairs;
   std::vector<CouplingDescription> couplings;
   std::vector<ConstraintDescription> constraints;
+  std::vector<SpringDescription> springs;
   std::vector<std::string> warnings;
 };
 

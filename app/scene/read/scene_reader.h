@@ -23,13 +23,14 @@ struct SceneReader {
   void read_pair(const Value& table);
   void read_coupling(const Value& table, std::size_t index);
   void read_constraint(const Value& table, std::size_t index);
+  void read_spring(const Value& table, std::size_t index);
 
   TableReader open(const Value& table, std::string where) {
     return TableReader(table, std::move(where), file, faults);
   }
   // Required, unique, without a slash; later diagnostics of the table name it.
   std::string read_name(TableReader& table, const char* kind);
-  // Name of a coupling or constraint, unique among them; default KINDn.
+  // Name of a coupling, constraint or spring, unique among them; default KINDn.
   std::string read_item_name(TableReader& table, const char* kind, std::size_t index) {
     const std::string name = table.text("name").value_or(kind + std::to_string(index));
     table.rename(std::string(kind) + " '" + name + "'");
