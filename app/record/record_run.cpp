@@ -1,6 +1,5 @@
 #include "app/record/record_run.h"
 
-#include <string_view>
 #include <unordered_map>
 
 #include "app/render/list/image.h"
@@ -106,25 +105,6 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
                               p.contact.n_W, p.force_W, p.couple_W});
   }
 }
-
-// Indices of names; new ones are appended. A heap has thousands.
-class Numbering {
- public:
-  Numbering(std::vector<std::string>& names, std::size_t most_new) : names_(names) {
-    names_.reserve(names.size() + most_new);  // the map has views of them
-    for (std::uint32_t i = 0; i < names.size(); ++i) numbers_.emplace(names[i], i);
-  }
-  std::uint32_t of(const std::string& name) {
-    const auto next = static_cast<std::uint32_t>(names_.size());
-    const auto [found, is_new] = numbers_.try_emplace(name, next);
-    if (is_new) names_.push_back(name);
-    return found->second;
-  }
-
- private:
-  std::vector<std::string>& names_;
-  std::unordered_map<std::string_view, std::uint32_t> numbers_;
-};
 
 using recording_format::kMomentumName, recording_format::kName;
 
@@ -251,10 +231,15 @@ RecordedFrame frame_of(SteppedRun& run, const SimulatePlan& prepared, bool with_
 
 void add_energy_balances(const SteppedRun& run, std::vector<std::string>& names,
                          std::vector<std::string>& momentum_names, RecordedFrame& frame) {
-  Numbering rows(names, run.energy_balance().size()),
-      momentum_rows(momentum_names, run.momentum().size());
+  const std::array lists{&names, &momentum_names};
+  std::array<std::unordered_map<std::string, std::size_t>, 2> numbers;  // a heap has thousands
+  for (const std::size_t k : {0, 1})
+    for (const std::string& name : *lists[k]) numbers[k].emplace(name, numbers[k].size());
   add_rows(run, frame, [&](char kind, const std::string& name) {
-    return (kind == kName ? rows : momentum_rows).of(name);
+    const std::size_t k = kind == kName ? 0 : 1;
+    const auto [found, is_new] = numbers[k].try_emplace(name, numbers[k].size());
+    if (is_new) lists[k]->push_back(name);
+    return static_cast<std::uint32_t>(found->second);
   });
 }
 

@@ -33,6 +33,7 @@ ALLOWED = {
     "app/scene/": "keys, names and values of scenes",
     "app/command/trial.cpp": "values of --conditions and --mapping",
     "collision/import/": "elements and attributes of XML files",
+    "solver/expressions/expression_parser.cpp": "functions of formulas",
     "solver/support/diagnostics.cpp": "options as they are typed",
     # Symbols of equations, whose sign stands in front.
     "app/inspect/equations.cpp": "the sign of a term",

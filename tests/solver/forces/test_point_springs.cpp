@@ -1,15 +1,12 @@
-// Springs between two points: the two-body oscillator, momentum, work, and force laws.
+// Springs between two points: length, rate and force laws.
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <vector>
 
 #include "solver/dynamics/model_builder.h"
 #include "solver/expressions/expression_parser.h"
 #include "solver/forces/point_springs.h"
-#include "solver/stepping/simulation.h"
 
 namespace twinarm {
 namespace {
@@ -58,29 +55,7 @@ ExpressionTape law_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("two free bodies on a spring oscillate with the period of their reduced mass") {
-  const Model<double> model = two_bodies();
-  constexpr double k = 50, rest = 0.8, stretched = 1;
-  PointSprings springs({{"s", {1, {0.1, 0, 0}}, {2, {}}, k, 0, rest}});
-  Simulation simulation(model, apart(model, stretched));
-  simulation.set_integrator(Integrator::rk4);
-  simulation.add(springs);
-  const double reduced = kMassA * kMassB / (kMassA + kMassB), omega = std::sqrt(k / reduced);
-  constexpr int steps = 1000;
-  const double h = 2 * std::numbers::pi / omega / steps;
-  for (int n = 1; n <= steps; ++n) {
-    REQUIRE(simulation.step(h).ok());
-    if (n % 125) continue;
-    const auto now = springs.reading(0, simulation.state(), simulation.kinematics());
-    CHECK(now.length ==
-          doctest::Approx(rest + (stretched - rest) * std::cos(omega * h * n)).epsilon(1e-9));
-    const Vector3 momentum = kMassA * simulation.kinematics().velocity(1, now.p_A) +
-                             kMassB * simulation.kinematics().velocity(2, now.p_B);
-    CHECK(momentum.norm() < 1e-12);
-  }
-}
-
-TEST_CASE("a damped spring loses the energy that its power says, and a law adds its tension") {
+TEST_CASE("a spring's rate is that of its length, and a law adds its tension") {
   const Model<double> model = two_bodies();
   State<double> x = apart(model, 1);
   for (std::size_t i = 0; i < x.qd.size(); ++i) x.qd[i] = 0.1 * (1 + double(i % 5));
