@@ -1,6 +1,8 @@
 // Derivatives of formulas.
 #include "solver/expressions/expression_graph.h"
 
+#include <algorithm>
+
 namespace twinarm {
 
 using Id = ExpressionGraph::Id;
