@@ -1,5 +1,4 @@
 """Springs and force laws of scenes, against particles integrated here and closed forms."""
-import json
 import math
 
 from program import ProgramTest, main
