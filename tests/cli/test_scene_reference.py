@@ -93,7 +93,7 @@ class Keys(unittest.TestCase):
                          f"docs/reference/scene_file.md, {heading}: said, though there is none")
 
     def test_the_top(self):
-        lists = {"robot", "body", "pair", "coupling", "constraint"}
+        lists = {"robot", "body", "pair", "coupling", "constraint", "spring"}
         self.check("The top", known("") - lists)
         for name in lists:
             self.assertIn(f"## `[[{name}]]`", PAGE)
@@ -101,7 +101,7 @@ class Keys(unittest.TestCase):
     def test_each_list_of_tables(self):
         for name, before, skip in (("robot", ROBOT, ("name", "model")), ("body", "[[body]]", ()),
                                    ("pair", "[[pair]]", ()), ("coupling", ROBOT + "[[coupling]]", ()),
-                                   ("constraint", "[[constraint]]", ())):
+                                   ("constraint", "[[constraint]]", ()), ("spring", "[[spring]]", ())):
             with self.subTest(name):
                 self.check(f"`[[{name}]]`", known(before, skip=skip))
 
