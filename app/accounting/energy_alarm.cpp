@@ -1,3 +1,4 @@
+// Alarm on rows of the energy balance that grow exponentially; the criteria stand in the header.
 #include "app/accounting/energy_balance.h"
 
 namespace twinarm {

@@ -199,6 +199,10 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
     rows.push_back(
         {EnergyRowKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, change)});
   }
+  for (std::size_t i = 0; i < input_.springs.size(); ++i)
+    if (input_.springs[i].stiffness != 0)
+      rows.push_back({EnergyRowKind::spring, "spring/" + input_.springs[i].name,
+                      spring_energy(i, start_) - spring_energy(i, now_)});
   const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
   rows.insert(rows.end(), integral, couplings);
   for (std::size_t c = 0; c < coupling_count(); ++c) {
@@ -213,10 +217,6 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
                       "coupling/" + spec.name + "/" + name_of(third),
                       implicit_[c] - spring - damper->work});
   }
-  for (std::size_t i = 0; i < input_.springs.size(); ++i)
-    if (input_.springs[i].stiffness != 0)
-      rows.push_back({EnergyRowKind::spring, "spring/" + input_.springs[i].name,
-                      spring_energy(i, start_) - spring_energy(i, now_)});
   double residual = now.kinetic - at_start_.kinetic;
   for (const EnergyRow& row : rows) residual -= row.work;
   rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});

@@ -25,7 +25,7 @@ class RunChannels {
   RunChannels(const SimulateInput& input, const RecordingHeader& header);
   // Contact of two geometries; false if it is there already, or kMaxPairs are.
   bool add_pair(int a, int b);
-  // A heap has thousands, of which nobody plots one: they would fill the page's memory.
+  // The thousands of a heap would fill the page's memory.
   static constexpr std::size_t kMaxPairs = 100;
   // Target and tracking error of joints that a device or motion moves.
   void add_led_joints(const Coordinates& coordinates, const std::vector<SceneCoupling>& couplings);

@@ -92,9 +92,34 @@ class Springs(ProgramTest):
         modes = self.json_of("modes", hung)["modes"]
         self.assertAlmostEqual(max(abs(complex(*mode["eigenvalue"])) for mode in modes), 5, delta=1e-6)
 
-    def test_inspect_names_the_force_with_both_bodies(self):
+    def test_inspect_names_the_force(self):
         text = self.twinarm("inspect", self.scene(), "--force", "spring/spring0").stdout
         self.assertIn("spring/spring0", text)
+
+    def test_the_force_at_an_impact_is_that_of_the_velocity_after_it(self):
+        scene = self.write("impact.toml", """
+[[body]]
+name = "floor"
+fixed = true
+restitution = 1
+shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
+[[body]]
+name = "ball"
+mass = 2
+shape = { sphere = { radius = 0.05 } }
+restitution = 0.5
+position = [0, 0, 0.0501]
+linear_velocity = [0, 0, -1]
+[[spring]]
+a = "ball"
+b = "world"
+point_b = [0, 0, 1]
+damping = 30
+""")
+        text = self.twinarm("inspect", scene, "--force", "spring/spring0").stdout
+        self.assertNotIn("FAIL", text)
+        force = float(next(line for line in text.splitlines() if "on ball" in line).split()[4])
+        self.assertAlmostEqual(force, -30 * 0.5, delta=0.1)
 
     def test_a_recording_replays_bit_by_bit(self):
         self.twinarm("simulate", self.scene(), "--duration", 0.5, "--record", self.folder / "spring.twinrec")

@@ -134,13 +134,13 @@ void add_by_joint(const Model<double>& model, const std::vector<double>& tau,
   }
 }
 
-std::vector<AppliedForce> given_actors(const RobotInput& input) {
+std::vector<AppliedForce> given_actors(const RobotInput& input, const State<double>& x) {
   std::vector<AppliedForce> actors;
   std::vector<double> tau(input.model.nv);
   for (const NamedJoint& joint : input.coordinates.all())
-    to_solver(joint, input.state.x, input.state.tau.data() + joint.row, tau);
+    to_solver(joint, x, input.state.tau.data() + joint.row, tau);
   add_by_joint(input.model, tau, "actuator/", "", actors);
-  const Kinematics k = kinematics_at(input.model, input.state.x);
+  const Kinematics k = kinematics_at(input.model, x);
   for (std::size_t i = 0; i < input.state.wrenches.size(); ++i) {
     const Wrench& wrench = input.state.wrenches[i];
     AppliedForce actor{
@@ -152,7 +152,7 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
   for (const PointSpring& spring : input.springs) {
     PointSprings alone({spring});
     Forces<double> added(input.model);
-    alone.add_forces(input.state.x, k, added);
+    alone.add_forces(x, k, added);
     actors.push_back(actor_of("spring/" + spring.name, added));
     actors.back().is_interaction = true;
     actors.back().point_W = k.position(spring.b.body, spring.b.p_L);
@@ -162,7 +162,7 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
 
 Inspected inspect_robot(const RobotInput& input) {
   const Model<double>& model = input.model;
-  Inspected inspected{input.state.x, given_actors(input), input.warnings, {}, {}};
+  Inspected inspected{input.state.x, given_actors(input, input.state.x), input.warnings, {}, {}};
   ForwardDynamics dynamics(model);
   Workspace<double> w(model);
   Forces<double> forces = sum_of(model, inspected.actors);

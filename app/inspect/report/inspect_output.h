@@ -63,8 +63,8 @@ class SceneInspector {
   std::unique_ptr<FirstStep> step_;
 };
 
-// Torques and wrenches of the state file.
-std::vector<AppliedForce> given_actors(const RobotInput& input);
+// Torques and wrenches of the state file, springs of a scene at x.
+std::vector<AppliedForce> given_actors(const RobotInput& input, const State<double>& x);
 // Adds a force "BEFORE joint AFTER" for each joint with nonzero tau (by velocity).
 void add_by_joint(const Model<double>& model, const std::vector<double>& tau,
                   const std::string& before, const std::string& after,

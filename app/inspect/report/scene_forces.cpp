@@ -58,7 +58,7 @@ class SceneInspector::FirstStep {
     if (!report.ok()) inspected.warnings.emplace_back("implicit step did not converge");
     forward_kinematics(model_, x_, k_);
     inspected.x = x_;
-    actors_ = given_actors(input_.robot);
+    actors_ = given_actors(input_.robot, x_);
     add_couplings();
     add_others();
     add_damping();

@@ -9,7 +9,7 @@ constexpr double kIdle = 0.1;  // [s]
 constexpr double kInspections = 5, kInspectionsPaused = 20, kLimits = 2.5, kFailures = 0.2,
                  kNaming = 1;
 constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and to many
-constexpr double kStates = 1;  // of one that has not changed: pages hear that the lab is there
+constexpr double kStates = 1;  // of an unchanged state: its arrival shows that the lab runs
 constexpr std::size_t kManyClients = 2;
 // Factor of the rate, for frames that the step does not permit to be evenly spaced.
 constexpr double kRateMargin = 1.05;
@@ -118,7 +118,7 @@ void MessageStreamer::take_scene(const LabNow& now) {
   send_scene();
 }
 
-// New contacts have new names: in a heap there are some at each step, and messages are long.
+// New names wait up to a second: in a heap contacts begin at each step, and a message is long.
 void MessageStreamer::update_scene() {
   const bool has_names = view_->naming() != naming_;
   if (view_->revision() != revision_ ||

@@ -10,7 +10,7 @@ export type News = ReturnType<Link['take']>;
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
-const SILENCE = 5000; // the connection is lost, though nobody closed it: the lab sends something each second [ms]
+const SILENCE = 5000; // without a message the connection is lost, although it is open: the lab sends its state each second [ms]
 const LISTENS = 1000; // so often [ms]
 const KIND = /"kind":\s*"(\w+)"/; // precedes all names of the scene
 
@@ -74,8 +74,8 @@ export class Link {
     socket.onclose = () => this.lose();
   }
 
-  // A computer that slept, or another network: the socket stays open for minutes and says nothing. A page that
-  // was busy has not heard what waits for it.
+  // A computer that slept, or another network: the socket stays open for minutes and says nothing. A busy
+  // page receives waiting messages later.
   private listen(): void {
     const now = performance.now();
     if (now - this.listened > 2 * LISTENS) this.heard = Math.max(this.heard, now - SILENCE + 2 * LISTENS);
