@@ -23,12 +23,19 @@ bool ImpulseIsland::set(ImpulseProblem& in_problem, const Members& members,
   for (std::vector<Vec>* list : {&best_p, &p, &u, &du}) list->resize(count);
   for (std::vector<double>* list : {&forces, &balance, &dv, &change_}) list->resize(problem->nv());
   factors.resize(problem->blocks_size());
+  factored_.resize(factors.size(), std::numeric_limits<double>::quiet_NaN());
   best = std::numeric_limits<double>::infinity();
   work = sweep_work = 0;
   bool positive = true;
   for (const int t : trees())
     with_size(problem->size(t), [&](auto n) {
-      positive = cholesky(problem->M(t), n, factors.data() + problem->block(t)) && positive;
+      const double* M = problem->M(t);
+      double* known = factored_.data() + problem->block(t);
+      if (std::equal(M, M + n * n, known)) return;  // always for a free body
+      std::copy_n(M, n * n, known);
+      if (cholesky(M, n, factors.data() + problem->block(t))) return;
+      positive = false;
+      known[0] = std::numeric_limits<double>::quiet_NaN();
     });
   for (const int i : constraints()) {
     const ImpulseConstraint& c = constraint(i);

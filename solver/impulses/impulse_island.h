@@ -104,7 +104,8 @@ class ImpulseIsland {
   double inverse_inertia(const ImpulseConstraint& c) const;
 
   const Members* members_ = nullptr;
-  std::vector<double> change_;  // v - v0 at momentum_balance()
+  std::vector<double> change_;    // v - v0 at momentum_balance()
+  std::vector<double> factored_;  // the blocks of M of which `factors` are
 };
 
 }  // namespace twinarm

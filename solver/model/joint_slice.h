@@ -25,6 +25,13 @@ void store(const MatN<S, n>& part, std::vector<S>& all, std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) store(part[k], all, first + k * n);
 }
 template <class S, std::size_t n>
+bool is_stored(const MatN<S, n>& part, const std::vector<S>& all, std::size_t first) {
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      if (part[k][j] != all[first + k * n + j]) return false;
+  return true;
+}
+template <class S, std::size_t n>
 void add_to_diagonal(MatN<S, n>& A, const std::vector<S>& d1, const std::vector<S>& d2,
                      std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + d1[first + k] + d2[first + k];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -138,7 +139,8 @@ struct Workspace : BodyKinematics<S> {
     }
     resize(n, Xr, IA, pA, a, f, Ic, p, dv);
     resize(model.nv, U, u, qdd, tau, y);
-    resize(entries, D, D_factors);
+    resize(entries, D_factors);
+    D.assign(entries, S(std::numeric_limits<double>::quiet_NaN()));  // D_factors are of no matrix
   }
 
   // Calls visit(Quantity, field) for the variables of aba(), in the order of computation.

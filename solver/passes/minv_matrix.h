@@ -46,7 +46,7 @@ void articulated_inertias(const Model<S>& model, const State<S>& x, Workspace<S>
       auto D = transpose_times(S_i, U);
       add_to_diagonal(D, model.armature, m.no_armature, iv);
       const auto factors = factorized(D);
-      store(U, w.U, iv), store(factors, w.D_factors, w.iD[i]);
+      store(U, w.U, iv), store(D, w.D, w.iD[i]), store(factors, w.D_factors, w.iD[i]);
       if (p == 0) return;
       const auto Ia = apparent_inertia(sparsity, w.IA[i], U, factors);
       if (model.last_child[p] == static_cast<int>(i))
