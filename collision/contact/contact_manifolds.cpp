@@ -1,6 +1,7 @@
 #include "collision/contact/contact_manifolds.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -26,14 +27,37 @@ double ContactManifolds::speculative_margin(std::size_t geometry, const Kinemati
   return is_fixed ? 0 : kMinMargin + 1.25 * bodies_.max_displacement(geometry, k, h);
 }
 
-ContactPoint ContactManifolds::start(const Contact& contact) const {
+// Appends the points of contacts_ that are not among points[0, known), with what they had one step
+// before. Contacts and last_ ascend by pair.
+void ContactManifolds::start_points() {
+  const auto known = static_cast<std::ptrdiff_t>(points.size());
+  auto of_pair = std::span<const ContactPoint>(last_);
+  std::pair pair(-1, -1);
+  ContactSurface surface;
+  for (const Contact& contact : contacts_) {
+    const std::tuple key(contact.a, contact.b, contact.feature);
+    const auto end = points.begin() + known;
+    const auto p = std::ranges::lower_bound(points.begin(), end, key, {}, key_of);
+    if ((p != end && key_of(*p) == key) || !bodies_.has_moving_body(contact)) continue;
+    if (pair != std::pair(contact.a, contact.b)) {
+      pair = {contact.a, contact.b};
+      surface = bodies_.surface_of_pair(contact.a, contact.b);
+      const auto first =
+          std::ranges::find_if(of_pair, [&](const ContactPoint& x) { return pair_of(x) >= pair; });
+      of_pair = {first, of_pair.end()};
+    }
+    points.push_back(start(contact, surface, of_pair));
+  }
+}
+
+ContactPoint ContactManifolds::start(const Contact& contact, const ContactSurface& surface,
+                                     std::span<const ContactPoint> last) const {
   ContactPoint point;
   point.contact = contact;
-  const ContactSurface pair = bodies_.surface_of_pair(contact.a, contact.b);
-  point.friction = pair.friction;
-  point.restitution = pair.restitution;
-  point.compliance = {pair.stiffness, pair.dissipation};
-  if (const ContactPoint* before = last_of(contact)) {
+  point.friction = surface.friction;
+  point.restitution = surface.restitution;
+  point.compliance = {surface.stiffness, surface.dissipation};
+  if (const ContactPoint* before = last_of(contact, last)) {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
@@ -45,15 +69,15 @@ ContactPoint ContactManifolds::start(const Contact& contact) const {
 
 // The same point one step before: by its feature, else the nearest of the pair (for coincident
 // edges, rounding decides which of them identifies a vertex).
-const ContactPoint* ContactManifolds::last_of(const Contact& contact) const {
-  const std::pair pair(contact.a, contact.b);
-  auto p = std::ranges::lower_bound(last_, pair, {}, pair_of);
+const ContactPoint* ContactManifolds::last_of(const Contact& contact,
+                                              std::span<const ContactPoint> last) {
   const ContactPoint* nearest = nullptr;
   double min_distance = kSamePoint;
-  for (; p != last_.end() && pair_of(*p) == pair; ++p) {
-    if (p->contact.feature == contact.feature) return &*p;
-    const double distance = (p->contact.p_WC - contact.p_WC).norm();
-    if (distance < min_distance) min_distance = distance, nearest = &*p;
+  for (const ContactPoint& p : last) {
+    if (pair_of(p) != std::pair(contact.a, contact.b)) break;
+    if (p.contact.feature == contact.feature) return &p;
+    const double distance = (p.contact.p_WC - contact.p_WC).norm();
+    if (distance < min_distance) min_distance = distance, nearest = &p;
   }
   return nearest;
 }
@@ -69,8 +93,7 @@ void ContactManifolds::begin_step(const Kinematics& k, double h) noexcept {
   bodies_.world().detect(X_WG_, margins_, contacts_);
   std::swap(points, last_);
   points.clear();
-  for (const Contact& contact : contacts_)
-    if (bodies_.has_moving_body(contact)) points.push_back(start(contact));
+  start_points();
 }
 
 bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept {
@@ -81,13 +104,7 @@ bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept 
   if (!farther) return false;
   bodies_.world().detect(X_WG_, margins_, contacts_);
   const std::size_t known = points.size();
-  for (const Contact& contact : contacts_) {
-    const auto end = points.begin() + static_cast<std::ptrdiff_t>(known);
-    const std::tuple key(contact.a, contact.b, contact.feature);
-    const auto p = std::ranges::lower_bound(points.begin(), end, key, {}, key_of);
-    if (p != end && key_of(*p) == key) continue;
-    if (bodies_.has_moving_body(contact)) points.push_back(start(contact));
-  }
+  start_points();
   if (points.size() == known) return false;
   std::ranges::sort(points, {}, key_of);
   for (ContactPoint& point : points) point.has_closing_contact = false, point.gap_after = 0;

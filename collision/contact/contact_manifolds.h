@@ -2,6 +2,7 @@
 // persistent points are carried over from the step before.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "collision/contact/contact_bodies.h"
@@ -25,8 +26,11 @@ class ContactManifolds {
 
  private:
   double speculative_margin(std::size_t geometry, const Kinematics& k, double h) const;
-  ContactPoint start(const Contact& contact) const;
-  const ContactPoint* last_of(const Contact& contact) const;
+  void start_points();
+  // `last`: points of the last step, those of the contact's pair first.
+  ContactPoint start(const Contact& contact, const ContactSurface& surface,
+                     std::span<const ContactPoint> last) const;
+  static const ContactPoint* last_of(const Contact& contact, std::span<const ContactPoint> last);
 
   ContactBodies& bodies_;
   std::vector<Pose> X_WG_;

@@ -31,7 +31,7 @@ bool ImpulseIsland::set(ImpulseProblem& in_problem, const Members& members,
     with_size(problem->size(t), [&](auto n) {
       const double* M = problem->M(t);
       double* known = factored_.data() + problem->block(t);
-      if (std::equal(M, M + n * n, known)) return;  // always for a free body
+      if (std::equal(M, M + n * n, known)) return;  // bodies at rest
       std::copy_n(M, n * n, known);
       if (cholesky(M, n, factors.data() + problem->block(t))) return;
       positive = false;

@@ -63,11 +63,10 @@ template <class S, class M, class Trace = NoTrace>
       const auto U = w.IA[i] * S_i;
       auto D = transpose_times(S_i, U);
       add_to_diagonal(D, model.armature, forces.armature, iv);
-      bool is_known = false;  // a free body alone: D is its inertia
+      bool is_known = false;  // a free body that keeps its axes has the D of the last step
       if constexpr (joint.nv == 6 && std::is_same_v<S, double>)
         is_known = is_stored(D, w.D, w.iD[i]);
-      const auto factors =
-          is_known ? slice_spd<joint.nv, S>(w.D_factors, w.iD[i]) : factorized(D);
+      const auto factors = is_known ? slice_spd<joint.nv, S>(w.D_factors, w.iD[i]) : factorized(D);
       const auto u = slice<joint.nv>(forces.tau, iv) - transpose_times(S_i, w.pA[i]);
       if (p > 0) {
         const auto Ia = apparent_inertia(sparsity, w.IA[i], U, factors);  // IA - U D^-1 U^T

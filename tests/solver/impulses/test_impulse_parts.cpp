@@ -9,7 +9,7 @@
 #include "solver/impulses/impulse_solver.h"
 #include "solver/linear_algebra/envelope_lu.h"
 #include "solver/linear_algebra/second_order_cone.h"
-#include "tests/solver/dynamics/random_tree.h"
+#include "tests/solver/impulses/impulse_problems.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -21,6 +21,23 @@ TEST_CASE("a problem without constraints takes no memory for its mass matrix") {
   problem.clear();
   problem.add_tree(2);
   CHECK(problem.M(0)[3] == 0);
+}
+
+TEST_CASE("a solver used on other bodies, more or fewer, gives the bits of a fresh one") {
+  Random random(22);
+  ImpulseSolver used;
+  for (unsigned n = 0; n < 200; ++n) {
+    const unsigned seed = n / 2;  // each twice: the second is solved with the factors of the first
+    const int bodies = static_cast<int>(1 + seed % 5);
+    ImpulseProblem problem = random_problem(seed, bodies, 2 * bodies, 100);
+    if (n % 2 == 1)
+      for (std::size_t k = 7; k < 36; k += 7) problem.M(bodies - 1)[k] += random.uniform(0, 1);
+    ImpulseProblem again = problem;
+    used.solve(problem);
+    ImpulseSolver fresh;
+    fresh.solve(again);
+    REQUIRE(std::equal(again.v(0), again.v(0) + again.nv(), problem.v(0)));
+  }
 }
 
 TEST_CASE("envelope LU agrees with a dense factorisation, symmetric or not") {
