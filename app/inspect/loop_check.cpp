@@ -47,7 +47,7 @@ VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, 
     VectorXd all(3);
     all[1] = x.q[in.model.iq[a]];
     all[2] = loop.type == LoopType::gear ? loop.ratio * x.q[in.model.iq[b]] : 0;
-    all[0] = all[1] - all[2] - loop.offset;
+    all[0] = all[1] - all[2] - loop.offset_at(in.x.t + s);
     return all;
   }
   forward_kinematics(in.model, x, k);

@@ -1,5 +1,6 @@
 #include "solver/loops/loop_closure.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "solver/loops/loop_types.h"
@@ -52,6 +53,9 @@ LoopClosures::LoopClosures(const Model<double>& model, std::vector<LoopClosure> 
 void LoopClosures::evaluate(const State<double>& x, const Kinematics& k) noexcept {
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     const Index row = index(ends_[l].first_row);
+    ends_[l].offset = {loops_[l].offset, 0, 0};
+    if (loops_[l].motion)
+      std::ranges::copy((*loops_[l].motion)(std::array{x.t}), ends_[l].offset.begin());
     const LoopRows rows{*model_, x, k, loops_[l], ends_[l], row, g_, rate_, gamma_, J_};
     visit_loop(loops_[l].type, [&](auto type) { type.evaluate(rows); });
   }

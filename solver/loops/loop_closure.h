@@ -13,17 +13,20 @@
 //   distance  1  |p_Ca - p_Cb| - length                    [m]       repulsive force [N]
 //   gear      1  q_a - ratio q_b - offset, one dof each    [rad, m]  joint force on a
 //   locked    1  q_a - offset, one dof                     [rad, m]  joint force on a
+//                with a motion q_a - f(t): a joint whose motion is prescribed
 // J is nonzero only for dofs between a and b. Cost O(depth) per loop; no allocation after the
 // constructor.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solver/dynamics/kinematics.h"
+#include "solver/expressions/expression_tape.h"
 #include "solver/model/model.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/diagnostics.h"
@@ -65,6 +68,10 @@ struct LoopClosure {
   Pose X_LaC{}, X_LbC{};         // C_a, C_b in the link frames; a hinge rotates about z
   double length = 0;             // distance [m]
   double ratio = 1, offset = 0;  // gear; locked: offset is the joint position [rad, m]
+  std::optional<ExpressionTape> motion = std::nullopt;  // locked: f, f', f'' of t, for `offset`
+  double offset_at(double t) const {
+    return motion ? ExpressionTape(*motion)(std::array{t})[0] : offset;
+  }
 };
 
 // Wrench of a loop on link a at C_b (distance: at C_a), world axes; the opposite acts on link b.
@@ -80,6 +87,7 @@ struct LoopEnds {
   Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
   Vector3 p_WC = Vector3::Zero();      // origin of C_b
   std::array<Vector3, 3> n;            // directions of the rotational rows, or of the distance
+  std::array<double, 3> offset{};      // between joints: with its first and second derivative
 };
 using LoopJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -219,9 +219,9 @@ struct LockedLoop : AnyLoop {
   static void evaluate(const LoopRows& out) {
     const std::size_t q = out.model.iq[static_cast<std::size_t>(out.loop.body_a)];
     const std::size_t v = out.e.dofs[0];
-    out.g[out.row] = out.x.q[q] - out.loop.offset;
-    out.rate[out.row] = out.x.qd[v];
-    out.gamma[out.row] = 0;
+    out.g[out.row] = out.x.q[q] - out.e.offset[0];
+    out.rate[out.row] = out.x.qd[v] - out.e.offset[1];
+    out.gamma[out.row] = -out.e.offset[2];
     out.J(out.row, static_cast<Eigen::Index>(v)) = 1;
   }
   static LoopProblem problem(const LoopClosure& loop) {

@@ -19,6 +19,8 @@ struct ConstraintBuilder {
       made.type = given.type;
       if (given.type == ConstraintDescription::Type::gear)
         build_gear(given, made);
+      else if (given.motion)
+        made.a = child_of(given.a), made.motion = given.motion;
       else
         build_joint(given, made);
       scene.constraints.push_back(std::move(made));
@@ -73,12 +75,12 @@ struct ConstraintBuilder {
                 std::move(problem), std::move(fix), code});
   }
 
+  int child_of(const std::string& name) const {
+    const JointReference joint = *find_joint(scene.description, name);
+    return scene.model.find_joint(name_in_scene(scene.description, joint.robot, joint.joint->name));
+  }
+
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
-    const auto child_of = [&](const std::string& name) {
-      const JointReference joint = *find_joint(scene.description, name);
-      return scene.model.find_joint(
-          name_in_scene(scene.description, joint.robot, joint.joint->name));
-    };
     made.a = child_of(given.a);
     made.b = child_of(given.b);
     made.ratio = given.ratio;

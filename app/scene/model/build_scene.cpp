@@ -80,6 +80,7 @@ class SceneBuilder {
     scene_.start = State<double>(scene_.model);
     place_robots();
     place_bodies();
+    start_motions();
     apply_mimics(scene_.model, scene_.start);
     build_couplings(scene_);
     build_constraints(scene_);
@@ -190,6 +191,19 @@ class SceneBuilder {
     scene_.motions.push_back({body, law_of(X_WB, motion)});
     store_motion(scene_.model, static_cast<std::size_t>(body), scene_.motions.back().law(0),
                  scene_.start);
+  }
+
+  void start_motions() {
+    for (const ConstraintDescription& c : description().constraints) {
+      if (!c.motion) continue;
+      const JointReference joint = *find_joint(description(), c.a);
+      const auto body = static_cast<std::size_t>(scene_.model.find_joint(
+          name_in_scene(description(), joint.robot, joint.joint->name)));
+      ExpressionTape motion = *c.motion;
+      const auto start = motion(std::array{0.0});
+      scene_.start.q[scene_.model.iq[body]] = start[0];
+      scene_.start.qd[scene_.model.iv[body]] = start[1];
+    }
   }
 
   void place_bodies() {

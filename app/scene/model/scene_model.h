@@ -73,10 +73,11 @@ struct SceneConstraint {
   std::string name;
   int line = 0;
   Type type = Type::weld;
-  int a = 0, b = 0;              // bodies; gear: children of the joints
+  int a = 0, b = 0;              // bodies; gear: children of the joints; motion: of joint a
   Pose X_AC, X_BC;               // link axes; distance: between the origins of both
   double length = 0;             // distance, at the start [m]
   double ratio = 1, offset = 0;  // gear: q_a = ratio q_b + offset
+  std::optional<ExpressionTape> motion;
 };
 
 struct SceneModel {

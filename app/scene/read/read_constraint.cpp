@@ -36,13 +36,14 @@ std::string read_end(TableReader& table, const char* key, bool gear,
 // The keys that only some types have.
 void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   const bool gear = constraint.type == Type::gear;
+  const bool of_joints = gear || constraint.type == Type::locked;
   const auto vector = [&](const char* key, bool allowed) {
     if (table.has(key) && !allowed)
       table.fault(key, "is not a key of this type of constraint", "leave it out",
                   "scene.key-useless");
     return table.vector(key);
   };
-  constraint.point = vector("point", !gear);
+  constraint.point = vector("point", !of_joints);
   constraint.point_b = vector("point_b", constraint.type == Type::distance);
   constraint.axis = vector("axis", constraint.type == Type::hinge);
   if (constraint.axis && !(constraint.axis->norm() > 0))
@@ -59,23 +60,44 @@ void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   }
 }
 
-// Of length l, rate v and time t.
-std::optional<ExpressionTape> read_law(TableReader& table) {
-  const auto text = table.text("force");
+Dimension unit(const char* text) {
+  return parse_unit(text)->dimension;
+}
+
+// A formula, and as many derivatives by the last symbol; a diagnostic if it cannot be read.
+std::optional<ExpressionTape> read_formula(TableReader& table, const char* key,
+                                           const std::vector<ExpressionSymbol>& symbols,
+                                           const Dimension& wanted, std::size_t derivatives,
+                                           const char* fix) {
+  const auto text = table.text(key);
   if (!text) return std::nullopt;
-  const Dimension m = parse_unit("m")->dimension, s = parse_unit("s")->dimension;
-  const std::vector<ExpressionSymbol> symbols{{"l", m}, {"v", m / s}, {"t", s}};
   try {
     ExpressionGraph graph;
-    const auto force = parse_expression(graph, *text, symbols, parse_unit("N")->dimension);
-    const std::array inputs{graph.symbol("l"), graph.symbol("v"), graph.symbol("t")};
-    return ExpressionTape(graph, inputs, std::array{force});
+    std::vector outputs{parse_expression(graph, *text, symbols, wanted)};
+    std::vector<ExpressionGraph::Id> inputs;
+    for (const ExpressionSymbol& symbol : symbols) inputs.push_back(graph.symbol(symbol.name));
+    while (outputs.size() <= derivatives)
+      outputs.push_back(graph.derivative(outputs.back(), inputs.back()));
+    return ExpressionTape(graph, inputs, outputs);
   } catch (const std::exception& error) {
-    table.fault("force", error.what(),
-                "give a force of length l, rate v and time t, as \"-20[N] + 3[N s/m] * v\"",
-                "scene.formula");
+    table.fault(key, error.what(), fix, "scene.formula");
     return std::nullopt;
   }
+}
+
+// The motion of joint a over time.
+void read_motion_of_joint(TableReader& table, ConstraintDescription& constraint,
+                          const SceneDescription& scene) {
+  if (table.has("b"))
+    table.fault("b", "is not a key of this type of constraint", "leave it out",
+                "scene.key-useless");
+  table.missing("position", "give the joint's position over time, as \"0.5 * sin(2[1/s] * t)\"");
+  const auto joint = find_joint(scene, constraint.a);
+  const bool slides = joint && joint->joint->type == JointDescription::Type::prismatic;
+  constraint.motion =
+      read_formula(table, "position", {{"t", unit("s")}}, unit(slides ? "m" : "rad"), 2,
+                   slides ? "give a length over time t, as \"50[mm] * sin(2[1/s] * t)\""
+                          : "give an angle over time t, as \"0.5 * sin(2[1/s] * t)\"");
 }
 
 }  // namespace
@@ -94,7 +116,10 @@ void SceneReader::read_spring(const Value& value, std::size_t index) {
   spring.stiffness = table.not_negative("stiffness").value_or(0);
   spring.damping = table.not_negative("damping").value_or(0);
   spring.rest_length = table.not_negative("rest_length");
-  spring.law = read_law(table);
+  spring.law =
+      read_formula(table, "force", {{"l", unit("m")}, {"v", unit("m/s")}, {"t", unit("s")}},
+                   unit("N"), 0,
+                   "give a force of length l, rate v and time t, as \"-20[N] + 3[N s/m] * v\"");
   if (!table.has("stiffness") && !table.has("damping") && !table.has("force"))
     table.fault("stiffness", "is missing", "give a stiffness, a damping or a force",
                 "scene.missing");
@@ -107,14 +132,21 @@ void SceneReader::read_constraint(const Value& value, std::size_t index) {
   ConstraintDescription constraint;
   constraint.line = table.line();
   constraint.name = read_item_name(table, "constraint", index);
-  table.missing("type", "give type = \"weld\", \"ball\", \"hinge\", \"distance\" or \"gear\"");
-  constexpr Type kTypes[] = {Type::weld, Type::ball, Type::hinge, Type::distance, Type::gear};
-  if (const auto type = table.choice("type", {"weld", "ball", "hinge", "distance", "gear"}))
+  table.missing("type",
+                "give type = \"weld\", \"ball\", \"hinge\", \"distance\", \"gear\" or \"motion\"");
+  constexpr Type kTypes[] = {Type::weld,     Type::ball, Type::hinge,
+                             Type::distance, Type::gear, Type::locked};
+  if (const auto type =
+          table.choice("type", {"weld", "ball", "hinge", "distance", "gear", "motion"}))
     constraint.type = kTypes[*type];
-  const bool gear = constraint.type == Type::gear;
+  const bool is_motion = constraint.type == Type::locked;
+  const bool of_joints = constraint.type == Type::gear || is_motion;
 
-  constraint.a = read_end(table, "a", gear, scene);
-  constraint.b = read_end(table, "b", gear, scene);
+  constraint.a = read_end(table, "a", of_joints, scene);
+  if (is_motion)
+    read_motion_of_joint(table, constraint, scene);
+  else
+    constraint.b = read_end(table, "b", of_joints, scene);
   if (!constraint.a.empty() && constraint.a == constraint.b)
     table.fault("b", "is the same as a", "name two bodies or joints", "scene.same-ends");
   read_type_keys(table, constraint);
