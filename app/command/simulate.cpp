@@ -29,6 +29,8 @@ void add_options(const OptionAdder& add, SimulateOptions& options) {
   add("--at", options.at, "output times: t1,t2,.. [s]");
   add.json(options.json);
   add("--csv", options.csv, "print one CSV row per output time");
+  add("--forces", options.forces,
+      "with accelerations, joint reactions, forces of constraints, springs and contacts");
   add.output("--record", options.record, ".twinrec", "write a recording of the run");
   add("--record-every", options.record_every,
       "interval between recorded frames [s]; default: each step");
@@ -37,9 +39,9 @@ void add_options(const OptionAdder& add, SimulateOptions& options) {
 }
 
 std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const SimulateInput& input,
-                                     const RunPlan& plan) {
-  if (options.json) return json_output(input, plan);
-  if (options.csv) return csv_output(input);
+                                     const RunPlan& plan, ForceSeries* forces) {
+  if (options.json) return json_output(input, plan, forces);
+  if (options.csv) return csv_output(input, forces);
   return table_output(input, plan);
 }
 
@@ -55,7 +57,10 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
   const SimulateInput& input = prepared.input;
   const RunPlan& plan = prepared.run;
   print_warnings(input.robot.warnings, options.json);
-  const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
+  std::optional<ForceSeries> forces;
+  if (options.forces) forces.emplace(options);
+  const std::unique_ptr<RunOutput> output =
+      output_of(options, input, plan, forces ? &*forces : nullptr);
 
   std::optional<RunRecorder> recorder;
   if (!options.record.empty())
@@ -76,7 +81,10 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
     watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
     watch.interrupted = is_interrupted;
     watch.tick = [&](double t) { progress.advance(t, plan.duration); };
-    if (recorder) watch.look = [&](SteppedRun& run) { recorder->look(run); };
+    watch.look = [&](SteppedRun& run) {
+      if (recorder) recorder->look(run);
+      if (forces) forces->keep(run);
+    };
     result = run_plan(input, plan, watch);
   } catch (const Interrupted&) {
     if (recorder) recorder->finish("interrupted");
@@ -107,6 +115,7 @@ Command simulate_command() {
           "Simulate a robot or a scene\n\n"
           "Examples:\n"
           "  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1\n"
+          "  twinarm simulate assets/scenes/slider_crank.toml --every 0.01 --csv --forces\n"
           "  twinarm simulate assets/scenes/double_pendulum.toml --duration 10 --record "
           "out/run.twinrec",
           add_options, run_simulate};

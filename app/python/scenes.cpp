@@ -1,6 +1,7 @@
 // Runs a scene or a robot as `twinarm simulate` does.
 #include <pybind11/stl.h>
 
+#include "app/inspect/series/force_series.h"
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "app/python/signals.h"
@@ -35,7 +36,7 @@ struct Samples {
   std::vector<double> t, q, qd, values;
   std::vector<std::vector<double>> targets;  // by coupling
 
-  void add(double now, const State<double>& x, SimulateInput& input) {
+  void add(double now, const State<double>& x, SimulateInput& input, ForceSeries* forces) {
     const auto append = [](const std::vector<double>& row, std::vector<double>& rows) {
       rows.insert(rows.end(), row.begin(), row.end());
     };
@@ -45,6 +46,7 @@ struct Samples {
     append(q_with_prescribed(model, x), q);
     append(x.qd, qd);
     append(run_values(input.robot, x, k), values);
+    if (forces) forces->read(x), append(forces->values(), values);
     targets.resize(input.couplings ? input.couplings->size() : 0);
     for (std::size_t c = 0; c < targets.size(); ++c)
       append(q_with_prescribed(model, input.couplings->target(c, now).x), targets[c]);
@@ -53,10 +55,10 @@ struct Samples {
 
 // Attributes of a Run (twinarm/_run.py).
 py::dict run_attributes(const Samples& samples, const SimulateInput& input,
-                        const SimulateResult& result) {
+                        const SimulateResult& result, const std::vector<RunColumn>& columns) {
   const auto robot = std::make_shared<Robot>(input.robot);
   const std::size_t rows = samples.t.size();
-  const py::dict units = units_of(run_columns(input.robot));
+  const py::dict units = units_of(columns);
   py::dict targets;
   for (std::size_t c = 0; c < samples.targets.size(); ++c)
     targets[py::str(input.couplings->spec(c).name)] =
@@ -79,7 +81,7 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
                   const std::optional<double>& step, const std::string& integrator,
                   const std::optional<double>& every, const py::object& state,
                   const std::string& contact, const std::optional<double>& tolerance, bool friction,
-                  bool armature, const py::object& set, const py::object& record) {
+                  bool armature, const py::object& set, const py::object& record, bool with_forces) {
   SimulateOptions options =
       run_options(file, step, integrator, state, contact, friction, armature, set);
   if (!duration && options.robot.model.extension() != ".toml")
@@ -91,21 +93,33 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
 
   Samples samples;
   RunWatch watch;
-  watch.sample = [&](double t, const State<double>& x) { samples.add(t, x, prepared.input); };
+  std::vector<RunColumn> columns = run_columns(prepared.input.robot);
+  std::optional<ForceSeries> forces;
+  if (with_forces) {
+    forces.emplace(options);
+    const std::vector<RunColumn> more = forces->columns();
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
+  watch.sample = [&](double t, const State<double>& x) {
+    samples.add(t, x, prepared.input, forces ? &*forces : nullptr);
+  };
   watch.tick = [](double) { check_signals(); };
   watch.interrupted = is_signalled;
   std::optional<RunRecorder> recorder;
   if (!record.is_none()) {
     recorder.emplace(path_of(record), header_of(options, prepared, {"twinarm.simulate"}), prepared);
-    watch.look = [&](SteppedRun& run) { recorder->look(run); };
   }
+  watch.look = [&](SteppedRun& run) {
+    if (recorder) recorder->look(run);
+    if (forces) forces->keep(run);
+  };
   const SimulateResult result = [&] {
     const py::gil_scoped_release other_threads;
     return run_plan(prepared.input, prepared.run, watch);
   }();
   if (recorder)
     recorder->finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-  return run_attributes(samples, prepared.input, result);
+  return run_attributes(samples, prepared.input, result, columns);
 }
 
 std::string name_of(const std::string& path) {

@@ -96,6 +96,8 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
                  "must be positive [J], or inf, is " + number_text(plan.energy_bound), "",
                  "option.not-positive");
   }
+  if (options.forces && !options.json && !options.csv)
+    faults.add("--forces", "needs --json or --csv", "give one of them", "option.useless");
   if (options.json && options.csv)
     faults.add("--csv", "cannot be combined with --json", "leave one of them out",
                "option.conflict");

@@ -34,6 +34,7 @@ struct SimulateOptions : RunSettings {
   std::optional<double> every;  // output interval [s]
   std::string at;               // output times "t1,t2,.." [s]
   bool json = false, csv = false;
+  bool forces = false;                 // with accelerations, reactions and forces
   std::filesystem::path record;        // recording; may be empty
   std::optional<double> record_every;  // [s]; default: each step
   std::filesystem::path post_mortem;   // recording of a diverged run; empty: in out/

@@ -36,6 +36,17 @@ class Tables(ProgramTest):
         self.assertEqual(self.recording.energy_balance["numerical"][-1], self.run_.energy_balance["numerical"])
         self.assertEqual({force.shape for force in self.recording.coupling_forces.values()}, {(51, 3)})
 
+    def test_forces_are_the_columns_of_the_csv(self):
+        run = twinarm.simulate(PEG, duration=0.05, every=0.01, forces=True)
+        csv = command.twinarm("simulate", PEG, "--duration", "0.05", "--every", "0.01", "--csv",
+                              "--forces").stdout.splitlines()
+        names = [cell.split("[")[0] for cell in csv[0].split(",")]
+        numbers = np.array([[float(cell) for cell in line.split(",")] for line in csv[1:]])
+        self.assertEqual([*run], names[1:])
+        for column, name in enumerate(names[1:], 1):
+            np.testing.assert_array_equal(run[name], numbers[:, column], name)
+        self.assertEqual(run.units[next(name for name in names if name.endswith("/alpha_x"))], "rad/s^2")
+
     def test_an_index_is_a_sample_and_a_slice_a_table(self):
         for table in (self.run_, self.recording):
             name = table.keys()[0]

@@ -65,30 +65,6 @@ void write_balances(JsonWriter& json, const Inspection& in, const InspectView& v
   });
 }
 
-void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view) {
-  json.list(forces_in_view(in, view), [&](const NamedForce& named) {
-    json.begin_object();
-    json.key("source").text(named.force->source);
-    if (named.force->point_W) json.key("point").vector(*named.force->point_W);
-    if (named.force->normal_W) json.key("axis").vector(*named.force->normal_W);
-    if (named.parts)
-      json.members({{"normal", named.parts->normal}, {"friction", named.parts->friction}});
-    if (named.force->is_interaction) json.put("unique", named.force->is_unique);
-    json.key("on").list(named.ends, [&](const NamedForce::End& end) {
-      json.object({{"body", in.model.body_name[end.body]},
-                   {"force", end.wrench.force},
-                   {"torque", end.wrench.torque},
-                   {"about", end.about}});
-    });
-    json.key("joints").list(named.joints, [&](const NamedForce::OnJoint& on) {
-      json.object({{"joint", in.model.joint_name[on.body]},
-                   {"component", on.dof - in.model.iv[on.body]},
-                   {"value", on.value}});
-    });
-    json.end_object();
-  });
-}
-
 void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.list(joint_balances(in), [&](const JointBalance& joint) {
     if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) return;
@@ -163,6 +139,30 @@ void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>
            {"body", in.model.body_name[body]},
            {"joint", in.model.joint_name[body]},
            {"quantities", [&] { write_quantities(json, shown_quantities(in, pass, body)); }}});
+  });
+}
+
+void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view) {
+  json.list(forces_in_view(in, view), [&](const NamedForce& named) {
+    json.begin_object();
+    json.key("source").text(named.force->source);
+    if (named.force->point_W) json.key("point").vector(*named.force->point_W);
+    if (named.force->normal_W) json.key("axis").vector(*named.force->normal_W);
+    if (named.parts)
+      json.members({{"normal", named.parts->normal}, {"friction", named.parts->friction}});
+    if (named.force->is_interaction) json.put("unique", named.force->is_unique);
+    json.key("on").list(named.ends, [&](const NamedForce::End& end) {
+      json.object({{"body", in.model.body_name[end.body]},
+                   {"force", end.wrench.force},
+                   {"torque", end.wrench.torque},
+                   {"about", end.about}});
+    });
+    json.key("joints").list(named.joints, [&](const NamedForce::OnJoint& on) {
+      json.object({{"joint", in.model.joint_name[on.body]},
+                   {"component", on.dof - in.model.iv[on.body]},
+                   {"value", on.value}});
+    });
+    json.end_object();
   });
 }
 

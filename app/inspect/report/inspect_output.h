@@ -55,8 +55,8 @@ class SceneInspector {
                  Integrator of_run = Integrator::semi_implicit);
   ~SceneInspector();
   // From the archive of an instant of the run (Simulation::serialize, throws likewise); without
-  // one, from the state of the last call or of the input.
-  Inspected look(StateArchive* memory = nullptr);
+  // one, from the state of the last call or of the input. `x`: a state soon after that instant.
+  Inspected look(StateArchive* memory = nullptr, const State<double>* x = nullptr);
 
  private:
   class FirstStep;
@@ -119,6 +119,8 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
 // The list of "passes", in the order of aba().
 void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
                   const std::vector<std::size_t>& bodies);
+// The list of "forces": those in view.
+void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view);
 // A number, a list of numbers, a matrix by rows, or by columns (S, U: one for each velocity).
 void write_value(JsonWriter& json, const Eigen::MatrixXd& m, bool by_columns);
 void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities);

@@ -37,9 +37,10 @@ class SceneInspector::FirstStep {
     sim_.set_integrator(Integrator::semi_implicit);
   }
 
-  Inspected look(StateArchive* memory) {
+  Inspected look(StateArchive* memory, const State<double>* x) {
     if (memory) {
       sim_.serialize(*memory);
+      if (x && x->t != sim_.state().t) sim_.set_state(*x);
       input_.robot.state = at_start_;
       set_pose(input_.robot, sim_.state());
     }
@@ -260,8 +261,8 @@ SceneInspector::SceneInspector(SimulateInput& input, double h,
                                const std::vector<NamedSource>& others, Integrator of_run)
     : step_(std::make_unique<FirstStep>(input, h, others, of_run)) {}
 SceneInspector::~SceneInspector() = default;
-Inspected SceneInspector::look(StateArchive* memory) {
-  return step_->look(memory);
+Inspected SceneInspector::look(StateArchive* memory, const State<double>* x) {
+  return step_->look(memory, x);
 }
 
 }  // namespace twinarm

@@ -43,7 +43,7 @@ class Run(Samples):
 
 
 def simulate(file, *, duration=None, step=None, integrator='', every=None, state=None, contact='', tolerance=None,
-             friction=True, armature=True, set=None, record=None):
+             friction=True, armature=True, set=None, record=None, forces=False):
     """Runs a scene (TOML) or a robot (URDF) as `twinarm simulate` does, with bitwise the same results: contacts,
     couplings, constraints, limits. Defaults are the scene's.
 
@@ -56,8 +56,10 @@ def simulate(file, *, duration=None, step=None, integrator='', every=None, state
       set             {path: value}: changes of the scene, as by `twinarm replay --set`:
                       {'coupling.pull.stiffness': 800, 'gravity': [0, 0, -1.62]}
       record          file of a recording of each step, for open_recording() and view()
+      forces          more columns, as of `--csv --forces`: accelerations, wrenches of joints, constraints, springs
+                      and contacts in world axes: run['joint/elbow/fz']
 
     Returns a Run. If the run diverges it ends, with the reason in Run.stopped.
     """
     return Run(_core._simulate(file, duration, step, integrator, every, state, contact, tolerance, friction,
-                               armature, set, record))
+                               armature, set, record, forces))

@@ -9,8 +9,8 @@ namespace {
 
 class JsonOutput : public RunOutput {
  public:
-  JsonOutput(const SimulateInput& simulated, const RunPlan& plan)
-      : input_(simulated.robot), simulated_(simulated), k_(input_.model) {
+  JsonOutput(const SimulateInput& simulated, const RunPlan& plan, ForceSeries* forces)
+      : input_(simulated.robot), simulated_(simulated), forces_(forces), k_(input_.model) {
     json_.begin_object();
     json_.members({{"schema", kJsonSchema},
                    {"joints", input_.coordinates.names()},
@@ -33,6 +33,7 @@ class JsonOutput : public RunOutput {
       if (simulated_.couplings) write_targets(t);
       json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
                      {"potential_energy", potential_energy(input_.model, x)}});
+      if (forces_) forces_->read(x), forces_->write(json_);
     });
   }
 
@@ -135,14 +136,16 @@ class JsonOutput : public RunOutput {
 
   const RobotInput& input_;
   const SimulateInput& simulated_;
+  ForceSeries* forces_;
   Kinematics k_;
   JsonWriter json_;
 };
 
 }  // namespace
 
-std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan) {
-  return std::make_unique<JsonOutput>(input, plan);
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan,
+                                       ForceSeries* forces) {
+  return std::make_unique<JsonOutput>(input, plan, forces);
 }
 
 }  // namespace twinarm

@@ -151,9 +151,12 @@ class TableOutput : public RunOutput {
 
 class CsvOutput : public RunOutput {
  public:
-  explicit CsvOutput(const RobotInput& input) : input_(input), k_(input.model) {
+  CsvOutput(const RobotInput& input, ForceSeries* forces)
+      : input_(input), forces_(forces), k_(input.model) {
     std::vector<std::string> header{"t[s]"};
     for (const RunColumn& column : run_columns(input)) header.push_back(column.with_unit());
+    if (forces_)
+      for (const RunColumn& column : forces_->columns()) header.push_back(column.with_unit());
     fmt::print("{}\n", csv_line(header));
   }
 
@@ -161,6 +164,11 @@ class CsvOutput : public RunOutput {
     forward_kinematics(input_.model, x, k_);
     std::vector<double> row = run_values(input_, x, k_);
     row.insert(row.begin(), t);
+    if (forces_) {
+      forces_->read(x);
+      const std::vector<double> values = forces_->values();
+      row.insert(row.end(), values.begin(), values.end());
+    }
     fmt::print("{}\n", csv_line(row));
   }
 
@@ -168,6 +176,7 @@ class CsvOutput : public RunOutput {
 
  private:
   const RobotInput& input_;
+  ForceSeries* forces_;
   Kinematics k_;
 };
 
@@ -177,8 +186,8 @@ std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPla
   return std::make_unique<TableOutput>(input, plan);
 }
 
-std::unique_ptr<RunOutput> csv_output(const SimulateInput& input) {
-  return std::make_unique<CsvOutput>(input.robot);
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input, ForceSeries* forces) {
+  return std::make_unique<CsvOutput>(input.robot, forces);
 }
 
 }  // namespace twinarm

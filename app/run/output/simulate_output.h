@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "app/inspect/series/force_series.h"
 #include "app/run/run.h"
 #include "app/run/simulate_input.h"
 
@@ -16,9 +17,10 @@ class RunOutput {
 };
 
 // They print to stdout: JSON and tables at the end, CSV during the run. They keep references to
-// their arguments.
-std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan);
-std::unique_ptr<RunOutput> csv_output(const SimulateInput& input);
+// their arguments. `forces` may be null.
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan,
+                                       ForceSeries* forces);
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input, ForceSeries* forces);
 std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan);
 
 }  // namespace twinarm

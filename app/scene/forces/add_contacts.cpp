@@ -96,8 +96,8 @@ void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticLi
 SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
   std::vector<LoopClosure> loops;
   for (const SceneConstraint& c : scene.constraints)
-    loops.push_back({c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset,
-                     c.motion});
+    loops.push_back(
+        {c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset, c.motion});
   if (!loops.empty()) simulation.set_loops(std::move(loops));
   const bool may_touch = scene.may_touch();
   simulation.set_impulse_effort(scene.description.accuracy.value_or(ImpulseAccuracy{}.accepted),

@@ -197,8 +197,8 @@ class SceneBuilder {
     for (const ConstraintDescription& c : description().constraints) {
       if (!c.motion) continue;
       const JointReference joint = *find_joint(description(), c.a);
-      const auto body = static_cast<std::size_t>(scene_.model.find_joint(
-          name_in_scene(description(), joint.robot, joint.joint->name)));
+      const auto body = static_cast<std::size_t>(
+          scene_.model.find_joint(name_in_scene(description(), joint.robot, joint.joint->name)));
       ExpressionTape motion = *c.motion;
       const auto start = motion(std::array{0.0});
       scene_.start.q[scene_.model.iq[body]] = start[0];

@@ -33,16 +33,21 @@ std::string read_end(TableReader& table, const char* key, bool gear,
   return *name;
 }
 
+void refuse(TableReader& table, const char* key) {
+  if (table.has(key))
+    table.fault(key, "is not a key of this type of constraint", "leave it out",
+                "scene.key-useless");
+}
+
 // The keys that only some types have.
 void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   const bool gear = constraint.type == Type::gear;
   const bool of_joints = gear || constraint.type == Type::locked;
   const auto vector = [&](const char* key, bool allowed) {
-    if (table.has(key) && !allowed)
-      table.fault(key, "is not a key of this type of constraint", "leave it out",
-                  "scene.key-useless");
+    if (!allowed) refuse(table, key);
     return table.vector(key);
   };
+  if (constraint.type != Type::locked) refuse(table, "position");
   constraint.point = vector("point", !of_joints);
   constraint.point_b = vector("point_b", constraint.type == Type::distance);
   constraint.axis = vector("axis", constraint.type == Type::hinge);
@@ -88,9 +93,7 @@ std::optional<ExpressionTape> read_formula(TableReader& table, const char* key,
 // The motion of joint a over time.
 void read_motion_of_joint(TableReader& table, ConstraintDescription& constraint,
                           const SceneDescription& scene) {
-  if (table.has("b"))
-    table.fault("b", "is not a key of this type of constraint", "leave it out",
-                "scene.key-useless");
+  refuse(table, "b");
   table.missing("position", "give the joint's position over time, as \"0.5 * sin(2[1/s] * t)\"");
   const auto joint = find_joint(scene, constraint.a);
   const bool slides = joint && joint->joint->type == JointDescription::Type::prismatic;
@@ -116,10 +119,9 @@ void SceneReader::read_spring(const Value& value, std::size_t index) {
   spring.stiffness = table.not_negative("stiffness").value_or(0);
   spring.damping = table.not_negative("damping").value_or(0);
   spring.rest_length = table.not_negative("rest_length");
-  spring.law =
-      read_formula(table, "force", {{"l", unit("m")}, {"v", unit("m/s")}, {"t", unit("s")}},
-                   unit("N"), 0,
-                   "give a force of length l, rate v and time t, as \"-20[N] + 3[N s/m] * v\"");
+  spring.law = read_formula(
+      table, "force", {{"l", unit("m")}, {"v", unit("m/s")}, {"t", unit("s")}}, unit("N"), 0,
+      "give a force of length l, rate v and time t, as \"-20[N] + 3[N s/m] * v\"");
   if (!table.has("stiffness") && !table.has("damping") && !table.has("force"))
     table.fault("stiffness", "is missing", "give a stiffness, a damping or a force",
                 "scene.missing");
