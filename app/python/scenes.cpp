@@ -81,7 +81,8 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
                   const std::optional<double>& step, const std::string& integrator,
                   const std::optional<double>& every, const py::object& state,
                   const std::string& contact, const std::optional<double>& tolerance, bool friction,
-                  bool armature, const py::object& set, const py::object& record, bool with_forces) {
+                  bool armature, const py::object& set, const py::object& record,
+                  bool with_forces) {
   SimulateOptions options =
       run_options(file, step, integrator, state, contact, friction, armature, set);
   if (!duration && options.robot.model.extension() != ".toml")

@@ -10,6 +10,11 @@
 //   ball      3  p_CaCb = 0, axes of C_a                   [m]       force on a at C_b [N]
 //   hinge     5  ball, and z_b . x_a = z_b . y_a = 0       [rad]     couple on a about x, y [N m]
 //   weld      6  ball, and the axes of C_a and C_b agree   [rad]     couple on a [N m]
+//   prismatic 5  x, y of p_CaCb, and the axes agree        [m, rad]  force at C_b, couple on a
+//   cylindrical 4  x, y of p_CaCb, and z_b . x_a = z_b . y_a = 0     likewise
+//   universal 4  ball, and z_a . y_b = 0                   [rad]     couple on a about x [N m]
+//   point_on_line 2, point_on_plane 1
+//                x, y (z) of p_CaCb, axes of C_a           [m]       force on a at C_b [N]
 //   distance  1  |p_Ca - p_Cb| - length                    [m]       repulsive force [N]
 //   gear      1  q_a - ratio q_b - offset, one dof each    [rad, m]  joint force on a
 //   locked    1  q_a - offset, one dof                     [rad, m]  joint force on a
@@ -34,12 +39,17 @@
 namespace twinarm {
 
 // List of loop types. A new type is one line here and one struct in loop_types.h.
-#define TWINARM_LOOPS(LOOP)    \
-  LOOP(weld, WeldLoop)         \
-  LOOP(ball, SphericalLoop)    \
-  LOOP(hinge, RevoluteLoop)    \
-  LOOP(distance, DistanceLoop) \
-  LOOP(gear, GearLoop)         \
+#define TWINARM_LOOPS(LOOP)              \
+  LOOP(weld, WeldLoop)                   \
+  LOOP(ball, SphericalLoop)              \
+  LOOP(hinge, RevoluteLoop)              \
+  LOOP(prismatic, PrismaticLoop)         \
+  LOOP(cylindrical, CylindricalLoop)     \
+  LOOP(universal, UniversalLoop)         \
+  LOOP(point_on_line, PointOnLineLoop)   \
+  LOOP(point_on_plane, PointOnPlaneLoop) \
+  LOOP(distance, DistanceLoop)           \
+  LOOP(gear, GearLoop)                   \
   LOOP(locked, LockedLoop)
 
 #define TWINARM_LOOP_NAME(name, Loop) name,

@@ -80,7 +80,7 @@ struct AnyLoop {
   static Eigen::VectorXd g_of_pose(const Pose&, double) { return {}; }
 };
 
-// ---- frames: the origins of C_a and C_b agree, and some of their axes ----
+// ---- frames: the origins of C_a and C_b agree along some axes of C_a, and some of their axes ----
 
 // Axes of C_a and C_b that stay perpendicular, and the sign for which the couples of the rows are
 // about x, y, z of C in the closed loop.
@@ -88,36 +88,46 @@ struct AxisRow {
   int of_a, of_b, sign;
 };
 
+// Axes of C_a along which the origins agree.
+inline constexpr std::array kAllAxes{0, 1, 2};
+inline constexpr std::array kAcrossZ{0, 1};
+inline constexpr std::array kAlongZ{2};
+
 // With s = p_b - p_a and R the axes of C_a, R' = [w_a]x R: g = -R^T s,
 //   g'  = -R^T (s' - w_a x s)  = R^T (velocity of a's point at p_b - that of b's)
 //   g'' = -R^T (s'' - alpha_a x s - 2 w_a x s' + w_a x (w_a x s)).
-inline void evaluate_points(const LoopRows& out, const LoopSide& a, const LoopSide& b) {
+template <auto points>
+void evaluate_points(const LoopRows& out, const LoopSide& a, const LoopSide& b) {
   const Matrix3 R_CW = a.X_WC.R.transpose();
   const Vector3& p = b.X_WC.p;
   const Vector3 s = p - a.X_WC.p, s_rate = b.v - a.v, turned = a.w.cross(s);
   out.e.R_WC = a.X_WC.R;
   out.e.p_WC = p;
-  out.g.segment<3>(out.row) = -(R_CW * s);
-  out.rate.segment<3>(out.row) = R_CW * (turned - s_rate);
-  out.gamma.segment<3>(out.row) =
+  const Vector3 g = -(R_CW * s), rate = R_CW * (turned - s_rate);
+  const Vector3 gamma =
       R_CW * (a.a - b.a + a.alpha.cross(s) + 2 * a.w.cross(s_rate) - a.w.cross(turned));
-  out.for_each_dof(
-      [&](double sign, Eigen::Index dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-        const Vector3 entry = sign * (R_CW * (v + w.cross(p - o)));
-        const double size = v.norm() + w.norm() * (p - o).norm();
-        for (Eigen::Index c = 0; c < 3; ++c)
-          out.J(out.row + c, dof) = without_rounding(entry[c], size);
-      });
+  for (std::size_t r = 0; r < points.size(); ++r) {
+    const Eigen::Index row = out.row + static_cast<Eigen::Index>(r);
+    out.g[row] = g[points[r]];
+    out.rate[row] = rate[points[r]];
+    out.gamma[row] = gamma[points[r]];
+  }
+  out.for_each_dof([&](double sign, Eigen::Index dof, const Vector3& w, const Vector3& v,
+                       const Vector3& o) {
+    const Vector3 entry = sign * (R_CW * (v + w.cross(p - o)));
+    const double size = v.norm() + w.norm() * (p - o).norm();
+    for (std::size_t r = 0; r < points.size(); ++r)
+      out.J(out.row + static_cast<Eigen::Index>(r), dof) = without_rounding(entry[points[r]], size);
+  });
 }
 
 // Perpendicular axes u of C_a and z of C_b: g = u . z, with n = u x z
 //   g' = (w_a x u) . z + u . (w_b x z) = n . (w_a - w_b)
 //   g'' = n . (alpha_a - alpha_b) + n' . (w_a - w_b),   n' = (w_a x u) x z + u x (w_b x z).
 template <std::size_t count>
-void evaluate_axes(const LoopRows& out, const std::array<AxisRow, count>& axes, const LoopSide& a,
-                   const LoopSide& b) {
+void evaluate_axes(const LoopRows& out, Eigen::Index first, const std::array<AxisRow, count>& axes,
+                   const LoopSide& a, const LoopSide& b) {
   const Vector3 w = a.w - b.w, alpha = a.alpha - b.alpha;
-  const Eigen::Index first = out.row + 3;
   for (std::size_t r = 0; r < count; ++r) {
     const Vector3 u = double(axes[r].sign) * a.X_WC.R.col(axes[r].of_a);
     const Vector3 z = b.X_WC.R.col(axes[r].of_b);
@@ -136,32 +146,36 @@ void evaluate_axes(const LoopRows& out, const std::array<AxisRow, count>& axes, 
       });
 }
 
-template <AxisRow... axes>
+template <auto points, AxisRow... axes>
 struct FrameLoop : AnyLoop {
-  static constexpr std::size_t rows = 3 + sizeof...(axes);
+  static constexpr std::size_t rows = points.size() + sizeof...(axes);
   static void evaluate(const LoopRows& out) {
     const LoopSide a = out.side_a(), b = out.side_b();
-    evaluate_points(out, a, b);
+    evaluate_points<points>(out, a, b);
     if constexpr (sizeof...(axes) > 0)
-      evaluate_axes(out, std::array<AxisRow, sizeof...(axes)>{axes...}, a, b);
+      evaluate_axes(out, out.row + static_cast<Eigen::Index>(points.size()),
+                    std::array<AxisRow, sizeof...(axes)>{axes...}, a, b);
   }
   static LoopWrench wrench(const LoopEnds& e, const double* lambda) {
     LoopWrench on_a;
-    for (std::size_t r = 0; r < sizeof...(axes); ++r) on_a.couple += lambda[3 + r] * e.n[r];
-    on_a.force = e.R_WC * Eigen::Map<const Vector3>(lambda);
+    Vector3 force_C = Vector3::Zero();
+    for (std::size_t r = 0; r < points.size(); ++r) force_C[points[r]] = lambda[r];
+    for (std::size_t r = 0; r < sizeof...(axes); ++r)
+      on_a.couple += lambda[points.size() + r] * e.n[r];
+    on_a.force = e.R_WC * force_C;
     return on_a;
   }
 };
-struct SphericalLoop : FrameLoop<> {
+struct SphericalLoop : FrameLoop<kAllAxes> {
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p; }
 };
-struct RevoluteLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
+struct RevoluteLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
   static bool has_opposite_axes(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
     return (Eigen::VectorXd(5) << X_CaCb.p, X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
   }
 };
-struct WeldLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
+struct WeldLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
   static bool has_opposite_axes(const Matrix3& R_CaCb) {
     return (R_CaCb.diagonal().array() < 0).any();
   }
@@ -169,6 +183,33 @@ struct WeldLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}
     const Matrix3& R = X_CaCb.R;
     return (Eigen::VectorXd(6) << X_CaCb.p, R(1, 2), R(2, 0), R(0, 1)).finished();
   }
+};
+
+struct PrismaticLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
+  static bool has_opposite_axes(const Matrix3& R_CaCb) {
+    return WeldLoop::has_opposite_axes(R_CaCb);
+  }
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
+    const Matrix3& R = X_CaCb.R;
+    return (Eigen::VectorXd(5) << X_CaCb.p.head<2>(), R(1, 2), R(2, 0), R(0, 1)).finished();
+  }
+};
+struct CylindricalLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
+  static bool has_opposite_axes(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
+    return (Eigen::VectorXd(4) << X_CaCb.p.head<2>(), X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
+  }
+};
+struct UniversalLoop : FrameLoop<kAllAxes, AxisRow{2, 1, -1}> {
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
+    return (Eigen::VectorXd(4) << X_CaCb.p, X_CaCb.R(2, 1)).finished();
+  }
+};
+struct PointOnLineLoop : FrameLoop<kAcrossZ> {
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p.head<2>(); }
+};
+struct PointOnPlaneLoop : FrameLoop<kAlongZ> {
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p.tail<1>(); }
 };
 
 // ---- distance ----

@@ -11,7 +11,8 @@ namespace {
 // Step of an inspection [s].
 double step_of(const SimulatePlan& plan) {
   constexpr double kInstant = 1e-6;
-  const bool by_step = facts_of(plan.run.integrator).implicit_force || plan.input.scene->may_touch();
+  const bool by_step =
+      facts_of(plan.run.integrator).implicit_force || plan.input.scene->may_touch();
   return by_step ? plan.run.step : kInstant;
 }
 
@@ -115,8 +116,7 @@ void ForceSeries::write(JsonWriter& json) const {
   json.key("joint_forces").object([&] {
     for (const std::size_t i : jointed_) {
       const Wrench6 wrench = joint_wrench(i);
-      json.key(joint_label(*now_, i))
-          .object({{"force", wrench.force}, {"torque", wrench.torque}});
+      json.key(joint_label(*now_, i)).object({{"force", wrench.force}, {"torque", wrench.torque}});
     }
   });
   write_forces(json.key("forces"), *now_, InspectView{});
@@ -133,8 +133,8 @@ std::vector<RunColumn> ForceSeries::columns() const {
         columns.push_back({"qdd/" + of, c.is_angle ? "rad/s^2" : "m/s^2", "acceleration", of});
       }
   for (std::size_t i = 1; i < model.parent.size(); ++i)
-    add_columns("links/" + model.body_name[i], "acceleration", model.body_name[i],
-                {"a", "alpha_"}, {"m/s^2", "rad/s^2"}, columns);
+    add_columns("links/" + model.body_name[i], "acceleration", model.body_name[i], {"a", "alpha_"},
+                {"m/s^2", "rad/s^2"}, columns);
   const auto add_wrench = [&](const std::string& name, const std::string& of) {
     add_columns(name, "force", of, {"f", "n"}, {"N", "N m"}, columns);
   };

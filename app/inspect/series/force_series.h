@@ -53,9 +53,9 @@ class ForceSeries {
     std::string force;
     std::size_t body;  // a, or b where a is the world
   };
-  std::vector<OnBody> named_;  // constraints and springs between bodies
-  std::vector<std::size_t> jointed_;     // bodies whose joint carries forces
-  std::vector<std::size_t> touching_;    // bodies that may touch
+  std::vector<OnBody> named_;          // constraints and springs between bodies
+  std::vector<std::size_t> jointed_;   // bodies whose joint carries forces
+  std::vector<std::size_t> touching_;  // bodies that may touch
   std::optional<Inspection> now_;
 };
 

@@ -110,6 +110,13 @@ struct ConstraintBuilder {
     Pose X_WC;
     X_WC.p = given.point.value_or(X_WA.p);
     if (given.axis) X_WC.R = rotation_taking_z_to(*given.axis);
+    if (given.axis_b) {
+      const Vector3 z = given.axis->normalized(), y = given.axis_b->normalized();
+      if (std::abs(z.dot(y)) > 1e-9)
+        fault(made, "axis and axis_b are not perpendicular", "give perpendicular axes",
+              "scene.no-direction");
+      X_WC.R << y.cross(z), y, z;
+    }
     made.X_AC = X_WA.inverse() * X_WC;
     made.X_BC = X_WB.inverse() * X_WC;
   }

@@ -77,8 +77,8 @@ struct GeometryBuilder {
       roots.push_back(is_fixed ? roots[static_cast<std::size_t>(model.parent[body])] : i);
     }
     for (const SceneConstraint& c : scene.constraints) {
-      using Type = SceneConstraint::Type;
-      if (c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge)
+      const LoopTypeFacts& facts = facts_of(c.type);
+      if (facts.ends == LoopBetween::bodies && facts.rows >= 3)  // a joint
         scene.joined.insert(std::minmax(roots[static_cast<std::size_t>(c.a)],
                                         roots[static_cast<std::size_t>(c.b)]));
     }

@@ -50,13 +50,18 @@ void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   if (constraint.type != Type::locked) refuse(table, "position");
   constraint.point = vector("point", !of_joints);
   constraint.point_b = vector("point_b", constraint.type == Type::distance);
-  constraint.axis = vector("axis", constraint.type == Type::hinge);
-  if (constraint.axis && !(constraint.axis->norm() > 0))
-    table.fault("axis", "is zero", "give a direction", "scene.no-direction");
-  if (constraint.type == Type::ball || constraint.type == Type::hinge)
+  const bool has_axis = constraint.type >= Type::hinge && constraint.type < Type::distance;
+  constraint.axis = vector("axis", has_axis);
+  constraint.axis_b = vector("axis_b", constraint.type == Type::universal);
+  for (const auto& [key, axis] :
+       {std::pair("axis", constraint.axis), {"axis_b", constraint.axis_b}})
+    if (axis && !(axis->norm() > 0))
+      table.fault(key, "is zero", "give a direction", "scene.no-direction");
+  if (constraint.type == Type::ball || has_axis)
     table.missing("point", "give the common point in the world at the start");
-  if (constraint.type == Type::hinge)
-    table.missing("axis", "give the axis of the hinge in the world at the start");
+  if (has_axis) table.missing("axis", "give the axis in the world at the start");
+  if (constraint.type == Type::universal)
+    table.missing("axis_b", "give the axis of b, perpendicular to that of a");
   if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
   if (const auto ratio = table.number("ratio")) {
     constraint.ratio = *ratio;
@@ -134,13 +139,11 @@ void SceneReader::read_constraint(const Value& value, std::size_t index) {
   ConstraintDescription constraint;
   constraint.line = table.line();
   constraint.name = read_item_name(table, "constraint", index);
-  table.missing("type",
-                "give type = \"weld\", \"ball\", \"hinge\", \"distance\", \"gear\" or \"motion\"");
-  constexpr Type kTypes[] = {Type::weld,     Type::ball, Type::hinge,
-                             Type::distance, Type::gear, Type::locked};
-  if (const auto type =
-          table.choice("type", {"weld", "ball", "hinge", "distance", "gear", "motion"}))
-    constraint.type = kTypes[*type];
+  table.missing("type", "give type = \"weld\", \"ball\", \"hinge\" or another");
+  std::vector<std::string> types;  // in the order of Type
+  for (const LoopTypeFacts& facts : all_loop_types())
+    types.emplace_back(facts.type == Type::locked ? "motion" : facts.name);
+  if (const auto type = table.choice("type", types)) constraint.type = static_cast<Type>(*type);
   const bool is_motion = constraint.type == Type::locked;
   const bool of_joints = constraint.type == Type::gear || is_motion;
 

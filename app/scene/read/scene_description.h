@@ -140,10 +140,11 @@ struct ConstraintDescription {
   std::string name;
   int line = 0;
   Type type = Type::weld;
-  std::string a, b;                             // gear, motion: "robot/joint"; motion: a alone
-  std::optional<Vector3> point, point_b, axis;  // world, at the start
-  double ratio = 1;                             // gear: speed of a = ratio * speed of b
-  std::optional<ExpressionTape> motion;         // of a joint: f, f', f'' of t [rad, m]
+  std::string a, b;                       // gear, motion: "robot/joint"; motion: a alone
+  std::optional<Vector3> point, point_b;  // world, at the start
+  std::optional<Vector3> axis, axis_b;    // likewise
+  double ratio = 1;                       // gear: speed of a = ratio * speed of b
+  std::optional<ExpressionTape> motion;   // of a joint: f, f', f'' of t [rad, m]
 };
 
 // A spring-damper or force law along the line between two points (solver/forces/point_springs.h).
