@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/compare/compare.h"
+#include "app/compare/published/published_cases.h"
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/support/progress.h"
@@ -19,8 +20,14 @@ bool selects(const std::string& word, const std::string& name, const std::string
 }
 
 template <class F>
+void for_each_case(F&& f) {
+  for (const AnalyticCase& c : analytic_cases()) f(c);
+  for (const AnalyticCase& c : published_cases()) f(c);
+}
+
+template <class F>
 void for_each_name(F&& f) {
-  for (const AnalyticCase& c : analytic_cases()) f(c.name, c.group);
+  for_each_case([&](const AnalyticCase& c) { f(c.name, c.group); });
   for (const SkippedCase& c : skipped_cases()) f(c.name, c.group);
 }
 
@@ -47,6 +54,17 @@ Json integrations_of(const CompareRow& row) {
                             {"seconds", r.result.seconds}});
   }
   return integrations;
+}
+
+Json numbers_of(const CaseResult& result) {
+  Json numbers = Json::array();
+  for (const ComparedNumber& number : result.numbers)
+    numbers.push_back({{"quantity", number.quantity},
+                       {"unit", number.unit},
+                       {"published", number.published},
+                       {"answer", number.answer},
+                       {"error", number.error}});
+  return numbers;
 }
 
 }  // namespace
@@ -77,8 +95,9 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
            std::ranges::any_of(names, [&](const auto& word) { return selects(word, name, of); });
   };
   CaseSelection selection;
-  for (const AnalyticCase& c : analytic_cases())
+  for_each_case([&](const AnalyticCase& c) {
     if (chosen(c.name, c.group)) selection.cases.push_back(&c);
+  });
   for (const SkippedCase& c : skipped_cases())
     if (chosen(c.name, c.group)) selection.skipped.push_back(&c);
   return selection;
@@ -190,6 +209,7 @@ std::string compare_json(const std::vector<CompareRow>& rows,
                      {"reference", row.test->reference},
                      {"seconds", row.seconds}});
     if (!integrations.empty()) cases.back()["configurations"] = integrations_of(row);
+    if (!row.result.numbers.empty()) cases.back()["numbers"] = numbers_of(row.result);
   }
   Json left_out = Json::array();
   for (const SkippedCase* c : skipped) left_out.push_back({{"name", c->name}, {"why", c->why}});

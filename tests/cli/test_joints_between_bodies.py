@@ -71,13 +71,15 @@ class JointsBetweenBodies(ProgramTest):
         self.assertAlmostEqual(energy, 0.5 * (inertia[1] + 0.5) + 0.5 * 4 * (inertia[2] + 0.5), delta=1e-8)
 
     def test_a_point_on_a_line_slides_and_the_body_turns_freely(self):
-        block = self.last("point_on_line", f"point = [0.5, 0, 0]\naxis = {list(SLOPE)}", spin=(0, 2, 0))["links"]["block"]
+        block = self.last("point_on_line", f"point = [0.5, 0, 0]\naxis = {list(SLOPE)}", spin=(0, 2, 0))[
+            "links"]["block"]
         way = 0.5 * G * 0.8 * 0.5**2
         self.near(block["position"], (0.5 + 0.6 * way, 0, -0.8 * way))
         self.near(block["angular_velocity"], (0, 2, 0))
 
     def test_a_point_on_a_plane_falls_within_the_plane(self):
-        block = self.last("point_on_plane", "point = [0.5, 0, 0]\naxis = [0.8, 0, 0.6]", velocity=(0, 1, 0))["links"]["block"]
+        block = self.last("point_on_plane", "point = [0.5, 0, 0]\naxis = [0.8, 0, 0.6]", velocity=(0, 1, 0))[
+            "links"]["block"]
         way = 0.5 * G * 0.8 * 0.5**2
         self.near(block["position"], (0.5 + 0.6 * way, 0.5, -0.8 * way))
 

@@ -79,6 +79,17 @@ std::string readings_table(const TrajectoryCase& c) {
   return with_powers(html) + "</tbody></table>\n";
 }
 
+std::string numbers_table(const CaseResult& result) {
+  if (result.numbers.empty()) return "";
+  std::string html =
+      "<table class=readings><thead><tr><th>quantity<th>published<th>twinarm<th>difference [units "
+      "of the last digit]</thead><tbody>\n";
+  for (const ComparedNumber& number : result.numbers)
+    html += fmt::format("<tr><td>{} [{}]<td>{}<td>{:.12g}<td>{:.2g}\n", escaped(number.quantity),
+                        escaped(number.unit), number.published, number.answer, number.error);
+  return with_powers(html) + "</tbody></table>\n";
+}
+
 // Run and reference, errors and energy; the captions of the three.
 std::string figures(const CompareRow& row, const CaseCurves& curves, std::string of_motion,
                     const std::string& of_errors, const std::string& of_energy) {
@@ -145,7 +156,8 @@ std::string case_section(const CompareRow& row, const std::vector<Integration>& 
                   escaped(c.name), yes_no(pass, "pass", "fail"), in_unicode(c.reference));
   const TrajectoryCase* motion = c.trajectory.get();
   html += "<div class=statement>" + replace_all(c.statement, "<p>", "<p class=formula>") +
-          "</div>\n" + facts_of_case(row, motion) + integrations_table(row);
+          "</div>\n" + facts_of_case(row, motion) + integrations_table(row) +
+          numbers_table(row.result);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   if (!motion) html += contact_figures(row);
   return html + command_of(row, integrations) + link_to_code(c.name) + "</section>\n";

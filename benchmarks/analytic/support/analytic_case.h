@@ -10,11 +10,18 @@
 
 namespace twinarm {
 
+// A published number and the answer to it.
+struct ComparedNumber {
+  std::string quantity, unit, published;
+  double answer, error;  // error: in units of the last published digit
+};
+
 struct CaseResult {
   double error = 0;  // not a number fails
   // max |E - E0| over the largest kinetic energy; empty where forces change E.
   std::optional<double> energy_drift{};
   std::optional<double> order{};  // of convergence; empty: not measured
+  std::vector<ComparedNumber> numbers{};
 };
 
 struct ContactCasePlot;
