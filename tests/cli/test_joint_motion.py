@@ -35,6 +35,12 @@ class JointMotion(ProgramTest):
         gained = 0.5 * HINGE_INERTIA * (math.cos(2.6)**2 - 1)
         self.assertAlmostEqual(run["energy_balance"]["constraint/motor"], gained, delta=1e-6)
 
+    def test_the_force_of_the_motor_is_a_column(self):
+        text = self.twinarm("simulate", self.scene(), "--duration", 1.3, "--csv", "--forces").stdout
+        last = dict(zip(text.splitlines()[0].split(","), map(float, text.splitlines()[-1].split(","))))
+        torque = -HINGE_INERTIA * 2 * math.sin(2.6)  # inertia times f''
+        self.assertAlmostEqual(last["constraint/motor[N m]"], torque, delta=1e-9)
+
     def test_a_bad_motion_is_refused_with_a_remedy(self):
         for position, words in (("2[m] * t", "at character"), ("t", "at character"), ("sin(2 * t", "at character"),
                                 ("q * 2", "q")):

@@ -51,9 +51,8 @@ std::vector<Static> static_values(const RobotInput& robot) {
   std::vector<Static> all;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    for (const auto& [before, values] : {std::pair("tau/", &d.tau_inverse),
-                                         {"bias/", &d.bias},
-                                         {"gravity/", &d.gravity}})
+    for (const auto& [before, values] :
+         {std::pair("tau/", &d.tau_inverse), {"bias/", &d.bias}, {"gravity/", &d.gravity}})
       all.push_back({before + rows[i], units[i], (*values)[k]});
     for (std::size_t j = 0; j < rows.size(); ++j) {
       const int angles = (units[i] == "N m") + (units[j] == "N m");
@@ -67,8 +66,9 @@ std::vector<Static> static_values(const RobotInput& robot) {
 
 void check_unit(const PublishedCase& of, const PublishedNumber& number, const std::string& unit) {
   if (number.unit == unit) return;
-  throw InputError(of.name + ", " + number.quantity, "has the unit " + unit + ", not " + number.unit,
-                   "give the number in " + unit, "published.unit");
+  throw InputError(of.name + ", " + number.quantity,
+                   "has the unit " + unit + ", not " + number.unit, "give the number in " + unit,
+                   "published.unit");
 }
 
 // Reads the columns at the times of the plan.
@@ -101,8 +101,9 @@ AnalyticCase case_of(const PublishedCase& published) {
       const PublishedNumber& number = published.numbers[i];
       const double units = std::abs(answers[i] - number.value()) / number.last_digit();
       if (!(units <= result.error)) result.error = units;
-      result.numbers.push_back({number.quantity + (number.time > 0 ? fmt::format(" at {:g} s", number.time) : ""),
-                                number.unit, number.digits, answers[i], units});
+      result.numbers.push_back(
+          {number.quantity + (number.time > 0 ? fmt::format(" at {:g} s", number.time) : ""),
+           number.unit, number.digits, answers[i], units});
     }
     return result;
   });
@@ -122,13 +123,13 @@ double PublishedNumber::last_digit() const {
   return std::pow(10.0, exponent - static_cast<int>(parts[2].length()));
 }
 
-PublishedCase read_published_case(const std::filesystem::path& file) {
+PublishedCase read_published_case(const std::filesystem::path& file, std::string its_name) {
   DiagnosticList faults;
   const Value root = read_toml(file);
   const std::string name = file.string();
   TableReader table(root, "the case", name, faults);
   PublishedCase made;
-  made.name = file.parent_path().filename().string();
+  made.name = std::move(its_name);
   for (const auto& [key, text, fix] :
        {std::tuple("title", &made.title, "say what is measured"),
         {"source", &made.source, "name program, version, file and test"},
@@ -195,12 +196,14 @@ const std::vector<AnalyticCase>& published_cases() {
     std::vector<std::filesystem::path> files;
     const std::filesystem::path folder = find_assets() / "published";
     if (std::filesystem::is_directory(folder))
-      for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (const auto file = entry.path() / "case.toml"; std::filesystem::exists(file))
-          files.push_back(file);
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "case.toml") files.push_back(entry.path());
     std::ranges::sort(files);
     std::vector<AnalyticCase> cases;
-    for (const auto& file : files) cases.push_back(case_of(read_published_case(file)));
+    for (const auto& file : files) {
+      const std::string place = std::filesystem::relative(file.parent_path(), folder).string();
+      cases.push_back(case_of(read_published_case(file, replace_all(place, "/", "-"))));
+    }
     return cases;
   }();
   return all;

@@ -1,8 +1,9 @@
 // Numbers that others have published: group "published" of `twinarm compare`.
 //
-// A folder of assets/published/ holds `case.toml` and its model; docs/develop/adding_a_case.md has
-// the keys. Each number is a column of `simulate --csv --forces`, or of `dynamics` at the start, and
-// is as exact as its digits: the case passes if every answer is within a unit of the last one.
+// A folder of assets/published/PROJECT/ holds `case.toml` and its model;
+// docs/develop/adding_a_case.md has the keys. Each number is a column of `simulate --csv --forces`,
+// or of `dynamics` at the start, and is as exact as its digits: the case passes if every answer is
+// within a unit of the last one.
 #pragma once
 
 #include <filesystem>
@@ -24,19 +25,19 @@ struct PublishedNumber {
 };
 
 struct PublishedCase {
-  std::string name;  // of the folder
+  std::string name;
   std::string title, source, address;
   SimulateOptions options;
   std::vector<PublishedNumber> numbers;
 };
 
 // Throws InputError with all errors.
-PublishedCase read_published_case(const std::filesystem::path& file);
+PublishedCase read_published_case(const std::filesystem::path& file, std::string name);
 // Of the program, in the order of the numbers. Throws InputError, also for a unit that is not that
 // of the quantity.
 std::vector<double> answers_of(const PublishedCase& published);
 
-// All cases, "P-NAME", by name; the first call reads them. Throws likewise.
+// All cases, "P-PROJECT-CASE", by name; the first call reads them. Throws likewise.
 const std::vector<AnalyticCase>& published_cases();
 
 }  // namespace twinarm

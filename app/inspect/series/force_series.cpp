@@ -37,6 +37,8 @@ ForceSeries::ForceSeries(const SimulateOptions& options) : plan_(prepare_simulat
   for (const SceneConstraint& c : scene.constraints)
     if (facts_of(c.type).ends == LoopBetween::bodies)
       named_.push_back({"constraint/" + c.name, static_cast<std::size_t>(c.a ? c.a : c.b)});
+    else
+      on_joints_.push_back({"constraint/" + c.name, static_cast<std::size_t>(c.a)});
   for (const PointSpring& spring : plan_.input.robot.springs)
     named_.push_back({"spring/" + spring.name,
                       static_cast<std::size_t>(spring.a.body ? spring.a.body : spring.b.body)});
@@ -86,6 +88,13 @@ ForceSeries::Wrench6 ForceSeries::wrench_of(const std::string& force, std::size_
       return {pull, R * to_eigen(f.n) - (actor.point_W.value_or(origin) - origin).cross(pull)};
     }
   return {};
+}
+
+double ForceSeries::torque_of(const std::string& force, std::size_t body) const {
+  for (const AppliedForce& actor : now_->actors)
+    for (const AppliedForce::OnJoint& on : actor.joints)
+      if (actor.source == force && on.dof == now_->model.iv[body]) return now_->torque_of(on);
+  return 0;
 }
 
 std::vector<ForceSeries::Wrench6> ForceSeries::sums_of_contacts() const {
@@ -141,6 +150,9 @@ std::vector<RunColumn> ForceSeries::columns() const {
   for (const std::size_t i : jointed_)
     add_wrench("joint/" + model.joint_name[i], model.joint_name[i]);
   for (const OnBody& on : named_) add_wrench(on.force, on.force);
+  for (const OnBody& on : on_joints_)
+    columns.push_back(
+        {on.force, is_translational(model.joint[on.body]) ? "N" : "N m", "force", on.force});
   for (const std::size_t i : touching_)
     add_wrench("contacts/" + model.body_name[i], model.body_name[i]);
   return columns;
@@ -160,6 +172,7 @@ std::vector<double> ForceSeries::values() const {
   }
   for (const std::size_t i : jointed_) add_wrench(joint_wrench(i));
   for (const OnBody& on : named_) add_wrench(wrench_of(on.force, on.body));
+  for (const OnBody& on : on_joints_) values.push_back(torque_of(on.force, on.body));
   const std::vector<Wrench6> contacts = sums_of_contacts();
   for (const std::size_t i : touching_) add_wrench(contacts[i]);
   return values;

@@ -44,6 +44,7 @@ class ForceSeries {
   Wrench6 joint_wrench(std::size_t body) const;
   // About its point of application.
   Wrench6 wrench_of(const std::string& force, std::size_t body) const;
+  double torque_of(const std::string& force, std::size_t body) const;  // [N m, N]
   std::vector<Wrench6> sums_of_contacts() const;
 
   SimulatePlan plan_;
@@ -54,6 +55,7 @@ class ForceSeries {
     std::size_t body;  // a, or b where a is the world
   };
   std::vector<OnBody> named_;          // constraints and springs between bodies
+  std::vector<OnBody> on_joints_;      // gears and motions: child of joint a
   std::vector<std::size_t> jointed_;   // bodies whose joint carries forces
   std::vector<std::size_t> touching_;  // bodies that may touch
   std::optional<Inspection> now_;

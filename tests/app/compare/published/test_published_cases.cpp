@@ -38,12 +38,12 @@ class CaseFolder {
 // Largest error in units of the last digit.
 double error_of(const std::string& numbers) {
   const CaseFolder folder(kHead + numbers);
-  const PublishedCase read = read_published_case(folder.file());
+  const PublishedCase read = read_published_case(folder.file(), "case");
   double error = 0;
   const std::vector<double> answers = answers_of(read);
   for (std::size_t i = 0; i < answers.size(); ++i)
-    error = std::max(error, std::abs(answers[i] - read.numbers[i].value()) /
-                                read.numbers[i].last_digit());
+    error = std::max(error,
+                     std::abs(answers[i] - read.numbers[i].value()) / read.numbers[i].last_digit());
   return error;
 }
 
@@ -51,7 +51,7 @@ double error_of(const std::string& numbers) {
 std::string code_of(const std::string& text) {
   const CaseFolder folder(text);
   try {
-    answers_of(read_published_case(folder.file()));
+    answers_of(read_published_case(folder.file(), "case"));
   } catch (const InputError& error) {
     return std::string(error.faults().front().code);
   }
