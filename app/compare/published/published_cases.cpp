@@ -158,8 +158,7 @@ PublishedCase read_published_case(const std::filesystem::path& file, std::string
   constexpr double kShort = 1e-3;  // [s]
   made.options.duration = end > 0 ? end : kShort;
   std::ranges::sort(times);
-  const auto repeated = std::ranges::unique(times);
-  times.erase(repeated.begin(), repeated.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double t : times)
     made.options.at += (made.options.at.empty() ? "" : ",") + number_text(t);
   return made;
