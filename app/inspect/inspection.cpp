@@ -1,6 +1,7 @@
 #include "app/inspect/inspection.h"
 
 #include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
@@ -112,6 +113,12 @@ Inspection::Inspection(const Model<double>& model_of, State<double> at,
       trace(model.parent.size()) {
   forward_kinematics(model, x, k);
   aba(model, x, forces, w, trace);
+}
+
+// p'' = R (a_lin + w x v) + g; w.a is a spatial acceleration with a_0 = -g.
+Vector3 Inspection::origin_acceleration(std::size_t body) const {
+  const Vec3<double> a_B = classical_acceleration(w.v[body], w.a[body], {});
+  return k.R_WB[body] * to_eigen(a_B) + to_eigen(model.gravity);
 }
 
 std::vector<std::size_t> Inspection::children(std::size_t i) const {

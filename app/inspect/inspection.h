@@ -65,6 +65,8 @@ struct Inspection {
     while (body > ancestor) body = parent(body);
     return body == ancestor;
   }
+  // p'' of the link's origin, world axes [m/s^2] (RBDA section 2.10).
+  Vector3 origin_acceleration(std::size_t body) const;
   // At the acceleration of this state.
   Force<double> force_of(const AppliedForce::OnBody& on) const {
     return on.f - on.added_inertia * w.a[on.body];

@@ -76,9 +76,7 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
     fastest = std::max({fastest, rate, std::sqrt(acceleration)});
   }
   // Where the ends slide past each other, g is a product of what moves with both.
-  const bool slides = loop.type >= LoopType::prismatic && loop.type <= LoopType::distance &&
-                      loop.type != LoopType::universal;
-  const double part = slides ? 0.25 : 0.5;
+  const double part = facts_of(loop.type).slides ? 0.25 : 0.5;
   return fastest > 0 ? part / fastest : 0;
 }
 

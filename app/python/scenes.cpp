@@ -45,8 +45,7 @@ struct Samples {
     t.push_back(now);
     append(q_with_prescribed(model, x), q);
     append(x.qd, qd);
-    append(run_values(input.robot, x, k), values);
-    if (forces) forces->read(x), append(forces->values(), values);
+    append(run_values(input.robot, x, k, forces), values);
     targets.resize(input.couplings ? input.couplings->size() : 0);
     for (std::size_t c = 0; c < targets.size(); ++c)
       append(q_with_prescribed(model, input.couplings->target(c, now).x), targets[c]);
@@ -94,15 +93,11 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
 
   Samples samples;
   RunWatch watch;
-  std::vector<RunColumn> columns = run_columns(prepared.input.robot);
   std::optional<ForceSeries> forces;
-  if (with_forces) {
-    forces.emplace(options);
-    const std::vector<RunColumn> more = forces->columns();
-    columns.insert(columns.end(), more.begin(), more.end());
-  }
+  if (with_forces) forces.emplace(options);
+  ForceSeries* const series = forces ? &*forces : nullptr;
   watch.sample = [&](double t, const State<double>& x) {
-    samples.add(t, x, prepared.input, forces ? &*forces : nullptr);
+    samples.add(t, x, prepared.input, series);
   };
   watch.tick = [](double) { check_signals(); };
   watch.interrupted = is_signalled;
@@ -120,7 +115,7 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
   }();
   if (recorder)
     recorder->finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-  return run_attributes(samples, prepared.input, result, columns);
+  return run_attributes(samples, prepared.input, result, run_columns(prepared.input.robot, series));
 }
 
 std::string name_of(const std::string& path) {

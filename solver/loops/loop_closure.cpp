@@ -18,7 +18,7 @@ Index index(std::size_t i) {
 
 std::span<const LoopTypeFacts> all_loop_types() {
 #define TWINARM_FACTS(name, Loop) \
-  LoopTypeFacts{LoopType::name, #name, Loop::rows, Loop::ends, &Loop::g_of_pose},
+  LoopTypeFacts{LoopType::name, #name, Loop::rows, Loop::ends, Loop::slides, &Loop::g_of_pose},
   static constexpr std::array all{TWINARM_LOOPS(TWINARM_FACTS)};
 #undef TWINARM_FACTS
   return all;

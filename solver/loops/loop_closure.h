@@ -62,6 +62,7 @@ struct LoopTypeFacts {
   const char* name;
   std::size_t rows;
   LoopBetween ends;
+  bool slides;  // the origins of C_a and C_b move relative to each other
   // Cross-check of g between bodies, from the pose of C_b in C_a (distance: and its length), to be
   // differentiated numerically. Same zeros and, there, same g''.
   Eigen::VectorXd (*g_of_pose)(const Pose& X_CaCb, double length);

@@ -3,6 +3,7 @@
 // A new type is one struct here and one line in the list of loop_closure.h. Members of a struct:
 //   rows              number of rows of g
 //   ends              between two bodies, between two joints, or of one joint
+//   slides            whether the origins of C_a and C_b move relative to each other
 //   evaluate          writes g, g', gamma and J, and the data of wrench()
 //   wrench            wrench on link a from the multipliers of its rows
 //   problem           error in the closure's parameters; empty if none
@@ -74,6 +75,7 @@ struct LoopProblem {
 // Defaults.
 struct AnyLoop {
   static constexpr LoopBetween ends = LoopBetween::bodies;
+  static constexpr bool slides = false;
   static LoopWrench wrench(const LoopEnds&, const double*) { return {}; }
   static LoopProblem problem(const LoopClosure&) { return {}; }
   static bool has_opposite_axes(const Matrix3&) { return false; }
@@ -149,6 +151,7 @@ void evaluate_axes(const LoopRows& out, Eigen::Index first, const std::array<Axi
 template <auto points, AxisRow... axes>
 struct FrameLoop : AnyLoop {
   static constexpr std::size_t rows = points.size() + sizeof...(axes);
+  static constexpr bool slides = points.size() < 3;
   static void evaluate(const LoopRows& out) {
     const LoopSide a = out.side_a(), b = out.side_b();
     evaluate_points<points>(out, a, b);
@@ -165,58 +168,35 @@ struct FrameLoop : AnyLoop {
     on_a.force = e.R_WC * force_C;
     return on_a;
   }
-};
-struct SphericalLoop : FrameLoop<kAllAxes> {
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p; }
-};
-struct RevoluteLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
-  static bool has_opposite_axes(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
-    return (Eigen::VectorXd(5) << X_CaCb.p, X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
-  }
-};
-struct WeldLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
+  // Two rows make the z axes parallel, three all axes.
   static bool has_opposite_axes(const Matrix3& R_CaCb) {
-    return (R_CaCb.diagonal().array() < 0).any();
+    return (sizeof...(axes) == 2 && R_CaCb(2, 2) < 0) ||
+           (sizeof...(axes) == 3 && (R_CaCb.diagonal().array() < 0).any());
   }
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
-    const Matrix3& R = X_CaCb.R;
-    return (Eigen::VectorXd(6) << X_CaCb.p, R(1, 2), R(2, 0), R(0, 1)).finished();
+    Eigen::VectorXd g(rows);
+    for (std::size_t r = 0; r < points.size(); ++r)
+      g[static_cast<Eigen::Index>(r)] = X_CaCb.p[points[r]];
+    auto row = static_cast<Eigen::Index>(points.size());
+    ((g[row++] = X_CaCb.R(axes.of_a, axes.of_b)), ...);
+    return g;
   }
 };
-
-struct PrismaticLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
-  static bool has_opposite_axes(const Matrix3& R_CaCb) {
-    return WeldLoop::has_opposite_axes(R_CaCb);
-  }
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
-    const Matrix3& R = X_CaCb.R;
-    return (Eigen::VectorXd(5) << X_CaCb.p.head<2>(), R(1, 2), R(2, 0), R(0, 1)).finished();
-  }
-};
-struct CylindricalLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
-  static bool has_opposite_axes(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
-    return (Eigen::VectorXd(4) << X_CaCb.p.head<2>(), X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
-  }
-};
-struct UniversalLoop : FrameLoop<kAllAxes, AxisRow{2, 1, -1}> {
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
-    return (Eigen::VectorXd(4) << X_CaCb.p, X_CaCb.R(2, 1)).finished();
-  }
-};
-struct PointOnLineLoop : FrameLoop<kAcrossZ> {
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p.head<2>(); }
-};
-struct PointOnPlaneLoop : FrameLoop<kAlongZ> {
-  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p.tail<1>(); }
-};
+struct SphericalLoop : FrameLoop<kAllAxes> {};
+struct RevoluteLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {};
+struct WeldLoop : FrameLoop<kAllAxes, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {};
+struct PrismaticLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {};
+struct CylindricalLoop : FrameLoop<kAcrossZ, AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {};
+struct UniversalLoop : FrameLoop<kAllAxes, AxisRow{2, 1, -1}> {};
+struct PointOnLineLoop : FrameLoop<kAcrossZ> {};
+struct PointOnPlaneLoop : FrameLoop<kAlongZ> {};
 
 // ---- distance ----
 
 // With d = p_a - p_b and n = d / |d|: g' = n . d',  g'' = n . d'' + (|d'|^2 - g'^2) / |d|.
 struct DistanceLoop : AnyLoop {
   static constexpr std::size_t rows = 1;
+  static constexpr bool slides = true;
   static void evaluate(const LoopRows& out) {
     const LoopSide a = out.side_a(), b = out.side_b();
     const Vector3 d = a.X_WC.p - b.X_WC.p, d_rate = a.v - b.v;

@@ -17,17 +17,25 @@
 namespace twinarm {
 namespace {
 
-const std::regex kNumber(R"(([+-]?\d+)(?:\.(\d*))?(?:[eE]([+-]?\d+))?)");
+const std::regex kNumber(R"(([+-]?\d{1,30})(?:\.(\d{0,30}))?(?:[eE]([+-]?\d{1,2}))?)");
 
-PublishedNumber read_number(TableReader& table) {
-  PublishedNumber number;
-  for (const auto& [key, text, fix] :
-       {std::tuple("quantity", &number.quantity, "give a column of simulate --csv --forces"),
-        {"unit", &number.unit, "give the unit of the column"},
-        {"published", &number.digits, "give the number as it is printed, as a text"}}) {
+struct TextKey {
+  const char* key;
+  std::string* text;
+  const char* fix;  // if it is missing
+};
+void read_texts(TableReader& table, std::initializer_list<TextKey> keys) {
+  for (const auto& [key, text, fix] : keys) {
     table.missing(key, fix);
     *text = table.text(key).value_or("");
   }
+}
+
+PublishedNumber read_number(TableReader& table) {
+  PublishedNumber number;
+  read_texts(table, {{"quantity", &number.quantity, "give a column of simulate --csv --forces"},
+                     {"unit", &number.unit, "give the unit of the column"},
+                     {"published", &number.digits, "give the number as it is printed, as a text"}});
   if (!number.digits.empty() && !std::regex_match(number.digits, kNumber))
     table.fault("published", "is not a number", "give its digits, as \"-1.250e-3\"",
                 "published.digits");
@@ -71,47 +79,21 @@ void check_unit(const PublishedCase& of, const PublishedNumber& number, const st
                    "published.unit");
 }
 
-// Reads the columns at the times of the plan.
+// The columns at the times of the plan; without those after a divergence.
 std::map<double, std::vector<double>> run_of(const SimulateOptions& options,
                                              std::vector<RunColumn>& columns) {
   const SimulatePlan prepared = prepare_simulation(options);
+  const RobotInput& robot = prepared.input.robot;
   ForceSeries forces(options);
-  columns = run_columns(prepared.input.robot);
-  const std::vector<RunColumn> more = forces.columns();
-  columns.insert(columns.end(), more.begin(), more.end());
+  columns = run_columns(robot, &forces);
   std::map<double, std::vector<double>> rows;
   RunWatch watch;
   watch.look = [&](SteppedRun& run) { forces.keep(run); };
   watch.sample = [&](double t, const State<double>& x) {
-    forces.read(x);
-    const Kinematics k = kinematics_at(prepared.input.robot.model, x);
-    std::vector<double>& row = rows[t] = run_values(prepared.input.robot, x, k);
-    const std::vector<double> values = forces.values();
-    row.insert(row.end(), values.begin(), values.end());
+    rows[t] = run_values(robot, x, kinematics_at(robot.model, x), &forces);
   };
   run_plan(prepared.input, prepared.run, watch);
   return rows;
-}
-
-AnalyticCase case_of(const PublishedCase& published) {
-  AnalyticCase made("P-" + published.name, 1, [published](bool) {
-    CaseResult result;
-    const std::vector<double> answers = answers_of(published);
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      const PublishedNumber& number = published.numbers[i];
-      const double units = std::abs(answers[i] - number.value()) / number.last_digit();
-      if (!(units <= result.error)) result.error = units;
-      result.numbers.push_back(
-          {number.quantity + (number.time > 0 ? fmt::format(" at {:g} s", number.time) : ""),
-           number.unit, number.digits, answers[i], units});
-    }
-    return result;
-  });
-  made.group = "published";
-  made.reference = published.title + " [units of the last published digit]";
-  made.statement = fmt::format("{}. Published: <a href=\"{}\">{}</a>.", escaped(published.title),
-                               escaped(published.address), escaped(published.source));
-  return made;
 }
 
 }  // namespace
@@ -130,13 +112,9 @@ PublishedCase read_published_case(const std::filesystem::path& file, std::string
   TableReader table(root, "the case", name, faults);
   PublishedCase made;
   made.name = std::move(its_name);
-  for (const auto& [key, text, fix] :
-       {std::tuple("title", &made.title, "say what is measured"),
-        {"source", &made.source, "name program, version, file and test"},
-        {"address", &made.address, "give the address of the file, with its commit"}}) {
-    table.missing(key, fix);
-    *text = table.text(key).value_or("");
-  }
+  read_texts(table, {{"title", &made.title, "say what is measured"},
+                     {"source", &made.source, "name program, version, file and test"},
+                     {"address", &made.address, "give the address of the file, with its commit"}});
   table.missing("model", "name the robot or scene beside this file");
   made.options.robot.model = file.parent_path() / table.text("model").value_or("");
   if (const auto state = table.text("state"))
@@ -185,9 +163,33 @@ std::vector<double> answers_of(const PublishedCase& published) {
                        name_remedy(number.quantity, names_of(columns), "columns"),
                        "published.quantity");
     check_unit(published, number, column->unit);
-    answers.push_back(rows.at(number.time)[static_cast<std::size_t>(column - columns.begin())]);
+    const auto row = rows.find(number.time);
+    answers.push_back(row == rows.end()
+                          ? std::nan("")
+                          : row->second[static_cast<std::size_t>(column - columns.begin())]);
   }
   return answers;
+}
+
+AnalyticCase case_of(const PublishedCase& published) {
+  AnalyticCase made("P-" + published.name, 1, [published](bool) {
+    CaseResult result;
+    const std::vector<double> answers = answers_of(published);
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const PublishedNumber& number = published.numbers[i];
+      const double units = std::abs(answers[i] - number.value()) / number.last_digit();
+      if (!(units <= result.error) && !std::isnan(result.error)) result.error = units;
+      result.numbers.push_back(
+          {number.quantity + (number.time > 0 ? fmt::format(" at {:g} s", number.time) : ""),
+           number.unit, number.digits, answers[i], units});
+    }
+    return result;
+  });
+  made.group = "published";
+  made.reference = published.title + " [units of the last published digit]";
+  made.statement = fmt::format("{}. Published: <a href=\"{}\">{}</a>.", escaped(published.title),
+                               escaped(published.address), escaped(published.source));
+  return made;
 }
 
 const std::vector<AnalyticCase>& published_cases() {

@@ -33,9 +33,11 @@ struct PublishedCase {
 
 // Throws InputError with all errors.
 PublishedCase read_published_case(const std::filesystem::path& file, std::string name);
-// Of the program, in the order of the numbers. Throws InputError, also for a unit that is not that
-// of the quantity.
+// Of the program, in the order of the numbers; not a number where the run has diverged before.
+// Throws InputError, also for a unit that is not that of the quantity.
 std::vector<double> answers_of(const PublishedCase& published);
+// Its error is the largest of all numbers, in units of their last digits.
+AnalyticCase case_of(const PublishedCase& published);
 
 // All cases, "P-PROJECT-CASE", by name; the first call reads them. Throws likewise.
 const std::vector<AnalyticCase>& published_cases();

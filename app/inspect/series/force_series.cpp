@@ -1,5 +1,6 @@
 #include "app/inspect/series/force_series.h"
 
+#include <algorithm>
 #include <array>
 
 #include "app/robot/dynamics.h"
@@ -50,6 +51,13 @@ ForceSeries::ForceSeries(const SimulateOptions& options) : plan_(prepare_simulat
         touching_.push_back(i);
 }
 
+void ForceSeries::keep(SteppedRun& run) {
+  const double slack = kSameTime * plan_.run.step, t = run.time();
+  const auto sample = std::ranges::lower_bound(plan_.run.times, t - slack);
+  if (sample != plan_.run.times.end() && *sample <= t + plan_.run.step + slack)
+    memory_ = run.memory();
+}
+
 void ForceSeries::read(const State<double>& x) {
   RobotInput& robot = plan_.input.robot;
   now_.reset();
@@ -65,27 +73,27 @@ void ForceSeries::read(const State<double>& x) {
   now_.emplace(robot.model, std::move(found.x), std::move(found.actors), std::move(found.loops));
 }
 
-ForceSeries::Acceleration ForceSeries::acceleration(std::size_t body) const {
-  const Motion<double>&a = now_->w.a[body], &v = now_->w.v[body];
+Vector3 ForceSeries::angular_acceleration(std::size_t body) const {
+  return now_->k.R_WB[body] * to_eigen(now_->w.a[body].w);
+}
+
+ForceSeries::Wrench6 ForceSeries::in_world(const Force<double>& f, std::size_t body) const {
   const Matrix3& R = now_->k.R_WB[body];
-  const Vector3 linear = to_eigen(a.v) + to_eigen(v.w).cross(to_eigen(v.v));
-  return {R * linear + to_eigen(now_->model.gravity), R * to_eigen(a.w)};
+  return {R * to_eigen(f.f), R * to_eigen(f.n)};
 }
 
 ForceSeries::Wrench6 ForceSeries::joint_wrench(std::size_t body) const {
-  const Force<double> f = joint_force(*now_, body);
-  const Matrix3& R = now_->k.R_WB[body];
-  return {R * to_eigen(f.f), R * to_eigen(f.n)};
+  return in_world(joint_force(*now_, body), body);
 }
 
 ForceSeries::Wrench6 ForceSeries::wrench_of(const std::string& force, std::size_t body) const {
   for (const AppliedForce& actor : now_->actors)
     for (const AppliedForce::OnBody& on : actor.bodies) {
       if (actor.source != force || on.body != body) continue;
-      const Force<double> f = now_->force_of(on);
-      const Matrix3& R = now_->k.R_WB[body];
-      const Vector3 pull = R * to_eigen(f.f), origin = now_->k.X_WL[body].p;
-      return {pull, R * to_eigen(f.n) - (actor.point_W.value_or(origin) - origin).cross(pull)};
+      Wrench6 wrench = in_world(now_->force_of(on), body);
+      if (actor.point_W)
+        wrench.torque -= (*actor.point_W - now_->k.X_WL[body].p).cross(wrench.force);
+      return wrench;
     }
   return {};
 }
@@ -102,9 +110,9 @@ std::vector<ForceSeries::Wrench6> ForceSeries::sums_of_contacts() const {
   for (const AppliedForce& actor : now_->actors) {
     if (!actor.normal_W) continue;
     for (const AppliedForce::OnBody& on : actor.bodies) {
-      const Force<double> f = now_->force_of(on);
-      sums[on.body].force += now_->k.R_WB[on.body] * to_eigen(f.f);
-      sums[on.body].torque += now_->k.R_WB[on.body] * to_eigen(f.n);
+      const Wrench6 wrench = in_world(now_->force_of(on), on.body);
+      sums[on.body].force += wrench.force;
+      sums[on.body].torque += wrench.torque;
     }
   }
   return sums;
@@ -117,10 +125,9 @@ void ForceSeries::write(JsonWriter& json) const {
   rates.qd = now_->w.qdd;
   write_velocities(json.key("qdd"), robot.coordinates, rates);
   json.key("accelerations").object([&] {
-    for (std::size_t i = 1; i < model.parent.size(); ++i) {
-      const Acceleration a = acceleration(i);
-      json.key(model.body_name[i]).object({{"linear", a.linear}, {"angular", a.angular}});
-    }
+    for (std::size_t i = 1; i < model.parent.size(); ++i)
+      json.key(model.body_name[i])
+          .object({{"linear", now_->origin_acceleration(i)}, {"angular", angular_acceleration(i)}});
   });
   json.key("joint_forces").object([&] {
     for (const std::size_t i : jointed_) {
@@ -166,15 +173,31 @@ std::vector<double> ForceSeries::values() const {
   const auto add_wrench = [&](const Wrench6& wrench) { add(wrench.force), add(wrench.torque); };
   for (const NamedJoint& joint : plan_.input.robot.coordinates.all())
     add(from_solver(joint, now_->x, now_->w.qdd));
-  for (std::size_t i = 1; i < now_->body_count(); ++i) {
-    const Acceleration a = acceleration(i);
-    add(a.linear), add(a.angular);
-  }
+  for (std::size_t i = 1; i < now_->body_count(); ++i)
+    add(now_->origin_acceleration(i)), add(angular_acceleration(i));
   for (const std::size_t i : jointed_) add_wrench(joint_wrench(i));
   for (const OnBody& on : named_) add_wrench(wrench_of(on.force, on.body));
   for (const OnBody& on : on_joints_) values.push_back(torque_of(on.force, on.body));
   const std::vector<Wrench6> contacts = sums_of_contacts();
   for (const std::size_t i : touching_) add_wrench(contacts[i]);
+  return values;
+}
+
+std::vector<RunColumn> run_columns(const RobotInput& input, const ForceSeries* forces) {
+  std::vector<RunColumn> columns = run_columns(input);
+  if (!forces) return columns;
+  const std::vector<RunColumn> more = forces->columns();
+  columns.insert(columns.end(), more.begin(), more.end());
+  return columns;
+}
+
+std::vector<double> run_values(const RobotInput& input, const State<double>& x, const Kinematics& k,
+                               ForceSeries* forces) {
+  std::vector<double> values = run_values(input, x, k);
+  if (!forces) return values;
+  forces->read(x);
+  const std::vector<double> more = forces->values();
+  values.insert(values.end(), more.begin(), more.end());
   return values;
 }
 

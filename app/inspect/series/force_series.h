@@ -19,8 +19,9 @@ class ForceSeries {
   // Prepares the run of these options again: an inspection changes its input.
   explicit ForceSeries(const SimulateOptions& options);
 
-  // Before the first step and after each: RunWatch::look.
-  void keep(SteppedRun& run) { memory_ = run.memory(); }
+  // Before the first step and after each (RunWatch::look): keeps what a sample within the next step
+  // needs.
+  void keep(SteppedRun& run);
   // At a state of the run before the next call of keep().
   void read(const State<double>& x);
 
@@ -35,11 +36,9 @@ class ForceSeries {
   struct Wrench6 {
     Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
   };
-  struct Acceleration {
-    Vector3 linear, angular;
-  };
-  // Of the link's origin.
-  Acceleration acceleration(std::size_t body) const;
+  Vector3 angular_acceleration(std::size_t body) const;
+  // About the link's origin.
+  Wrench6 in_world(const Force<double>& f, std::size_t body) const;
   // Of the parent on the body through its joint, about the link's origin.
   Wrench6 joint_wrench(std::size_t body) const;
   // About its point of application.
@@ -60,5 +59,10 @@ class ForceSeries {
   std::vector<std::size_t> touching_;  // bodies that may touch
   std::optional<Inspection> now_;
 };
+
+// Columns of a run, and their values at x; with those of `forces` unless it is null.
+std::vector<RunColumn> run_columns(const RobotInput& input, const ForceSeries* forces);
+std::vector<double> run_values(const RobotInput& input, const State<double>& x, const Kinematics& k,
+                               ForceSeries* forces);
 
 }  // namespace twinarm

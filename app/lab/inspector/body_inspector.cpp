@@ -2,7 +2,6 @@
 
 #include <exception>
 
-#include "solver/dynamics/world_kinematics.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {
@@ -69,13 +68,11 @@ void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) 
   json.end_array();
 }
 
-// p'' = R (a_lin + w x v) + g, world axes; w.a is a spatial acceleration with a_0 = -g.
 DisplayedQuantity origin_acceleration(const Inspection& in, std::size_t body) {
-  const Vec3<double> a_B = classical_acceleration(in.w.v[body], in.w.a[body], {});
   return {{"acceleration", 3, Quantity::By::body, "acceleration of the link's origin", "m/s^2",
            "R (a_lin + w x v) + g, section 2.10"},
           "world axes",
-          in.k.R_WB[body] * to_eigen(a_B) + to_eigen(in.model.gravity)};
+          in.origin_acceleration(body)};
 }
 
 // The main results of each step of the call, in order.

@@ -154,21 +154,14 @@ class CsvOutput : public RunOutput {
   CsvOutput(const RobotInput& input, ForceSeries* forces)
       : input_(input), forces_(forces), k_(input.model) {
     std::vector<std::string> header{"t[s]"};
-    for (const RunColumn& column : run_columns(input)) header.push_back(column.with_unit());
-    if (forces_)
-      for (const RunColumn& column : forces_->columns()) header.push_back(column.with_unit());
+    for (const RunColumn& column : run_columns(input, forces)) header.push_back(column.with_unit());
     fmt::print("{}\n", csv_line(header));
   }
 
   void sample(double t, const State<double>& x) override {
     forward_kinematics(input_.model, x, k_);
-    std::vector<double> row = run_values(input_, x, k_);
+    std::vector<double> row = run_values(input_, x, k_, forces_);
     row.insert(row.begin(), t);
-    if (forces_) {
-      forces_->read(x);
-      const std::vector<double> values = forces_->values();
-      row.insert(row.end(), values.begin(), values.end());
-    }
     fmt::print("{}\n", csv_line(row));
   }
 

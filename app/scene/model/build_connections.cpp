@@ -20,7 +20,7 @@ struct ConstraintBuilder {
       if (given.type == ConstraintDescription::Type::gear)
         build_gear(given, made);
       else if (given.motion)
-        made.a = child_of(given.a), made.motion = given.motion;
+        made.a = child_of(scene, given.a), made.motion = given.motion;
       else
         build_joint(given, made);
       scene.constraints.push_back(std::move(made));
@@ -75,14 +75,9 @@ struct ConstraintBuilder {
                 std::move(problem), std::move(fix), code});
   }
 
-  int child_of(const std::string& name) const {
-    const JointReference joint = *find_joint(scene.description, name);
-    return scene.model.find_joint(name_in_scene(scene.description, joint.robot, joint.joint->name));
-  }
-
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
-    made.a = child_of(given.a);
-    made.b = child_of(given.b);
+    made.a = child_of(scene, given.a);
+    made.b = child_of(scene, given.b);
     made.ratio = given.ratio;
     const auto q = [&](int body) {
       return scene.start.q[scene.model.iq[static_cast<std::size_t>(body)]];

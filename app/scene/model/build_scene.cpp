@@ -196,9 +196,7 @@ class SceneBuilder {
   void start_motions() {
     for (const ConstraintDescription& c : description().constraints) {
       if (!c.motion) continue;
-      const JointReference joint = *find_joint(description(), c.a);
-      const auto body = static_cast<std::size_t>(
-          scene_.model.find_joint(name_in_scene(description(), joint.robot, joint.joint->name)));
+      const auto body = static_cast<std::size_t>(child_of(scene_, c.a));
       ExpressionTape motion = *c.motion;
       const auto start = motion(std::array{0.0});
       scene_.start.q[scene_.model.iq[body]] = start[0];
@@ -256,6 +254,11 @@ void set_velocities(const SceneModel& scene, std::size_t robot, const JointValue
                     State<double>& x) {
   for (const auto& [name, given] : qd)
     to_solver(joint_in_model(scene, robot, name), x, given.values.data(), x.qd);
+}
+
+int child_of(const SceneModel& scene, const std::string& name) {
+  const JointReference joint = *find_joint(scene.description, name);
+  return scene.model.find_joint(name_in_scene(scene.description, joint.robot, joint.joint->name));
 }
 
 int body_of(const SceneModel& scene, const SceneReference& reference) {

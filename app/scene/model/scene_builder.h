@@ -9,6 +9,9 @@ namespace twinarm {
 // Index of the body in the model; 0 for the world and for fixed bodies.
 int body_of(const SceneModel& scene, const SceneReference& reference);
 
+// Child of a joint of one of the robots, by "robot/joint".
+int child_of(const SceneModel& scene, const std::string& joint);
+
 void build_geometries(SceneModel& scene);  // after the constraints; also `pairs`, `roots`, `joined`
 void build_couplings(SceneModel& scene);
 void build_constraints(SceneModel& scene);

@@ -50,7 +50,8 @@ void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   if (constraint.type != Type::locked) refuse(table, "position");
   constraint.point = vector("point", !of_joints);
   constraint.point_b = vector("point_b", constraint.type == Type::distance);
-  const bool has_axis = constraint.type >= Type::hinge && constraint.type < Type::distance;
+  const bool has_axis = !of_joints && constraint.type != Type::weld &&
+                        constraint.type != Type::ball && constraint.type != Type::distance;
   constraint.axis = vector("axis", has_axis);
   constraint.axis_b = vector("axis_b", constraint.type == Type::universal);
   for (const auto& [key, axis] :

@@ -25,9 +25,9 @@ std::string number(const std::string& quantity, const std::string& unit,
 
 class CaseFolder {
  public:
-  explicit CaseFolder(const std::string& text) {
+  explicit CaseFolder(const std::string& text, const std::string& scene = kScene) {
     std::ofstream(file()) << text;
-    std::ofstream(files_.folder() / "scene.toml") << kScene;
+    std::ofstream(files_.folder() / "scene.toml") << scene;
   }
   std::filesystem::path file() const { return files_.folder() / "case.toml"; }
 
@@ -35,16 +35,10 @@ class CaseFolder {
   TemporaryFiles files_{"twinarm-published"};
 };
 
-// Largest error in units of the last digit.
+// In units of the last digit.
 double error_of(const std::string& numbers) {
   const CaseFolder folder(kHead + numbers);
-  const PublishedCase read = read_published_case(folder.file(), "case");
-  double error = 0;
-  const std::vector<double> answers = answers_of(read);
-  for (std::size_t i = 0; i < answers.size(); ++i)
-    error = std::max(error,
-                     std::abs(answers[i] - read.numbers[i].value()) / read.numbers[i].last_digit());
-  return error;
+  return case_of(read_published_case(folder.file(), "case")).run().error;
 }
 
 // The code of the first diagnostic, or "" if the case is accepted.
@@ -77,10 +71,20 @@ TEST_CASE("a case file without source, or with a wrong unit, digits, quantity or
   CHECK(code_of(kHead) == "scene.missing");
   CHECK(code_of(kHead + number("links/mass/z", "mm", "-4905")) == "published.unit");
   CHECK(code_of(kHead + number("links/mass/z", "m", "-4.905 m")) == "published.digits");
+  CHECK(code_of(kHead + number("links/mass/z", "m", "1e999")) == "published.digits");
   CHECK(code_of(kHead + number("links/mas/z", "m", "-4.905")) == "published.quantity");
   // No tolerance can be wider than the digits: there is none.
   CHECK(code_of(kHead + number("links/mass/z", "m", "-4.905", "tolerance = 0.1\n")) ==
         "scene.unknown-key");
+}
+
+TEST_CASE("a run that diverges before a published time fails the case") {
+  const std::string start = number("links/mass/z", "m", "0.0", "time = 0\n");  // passes
+  const CaseFolder folder(
+      kHead + "integrator = \"euler\"\n" + number("links/mass/z", "m", "1", "time = 9\n") + start,
+      kScene + "[[spring]]\na = \"mass\"\nb = \"world\"\npoint_b = [0, 0, 1]\nstiffness = 1e9\n");
+  const AnalyticCase diverged = case_of(read_published_case(folder.file(), "case"));
+  CHECK_FALSE(passes(diverged, diverged.run()));
 }
 
 TEST_CASE("every published case passes") {
