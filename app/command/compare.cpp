@@ -30,7 +30,7 @@ void add_options(const OptionAdder& add, CompareOptions& options) {
   add.group("Cases");
   add("case", options.cases,
       "cases by name or prefix (E1 runs E1 and all E1-.., E all of E), or by group; default: all, "
-      "about 35 s");
+      "about 30 s");
   add("--group", options.group, "run all cases of this group");
   add.group("Run");
   add("--integrator", options.integrators,
